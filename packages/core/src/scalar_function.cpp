@@ -39,7 +39,7 @@ double ScalarFunction::operator()(double t, double x, double y, double z) const 
 
 bool ScalarFunction::is_constant() const { return !content_->body; }
 bool ScalarFunction::depends_on(std::size_t argument) const {
-  return !is_constant() && (argument >= content_->reads.size() || content_->reads[argument] != 0);
+  return argument < content_->reads.size() && content_->reads[argument] != 0;
 }
 const std::string& ScalarFunction::source() const { return content_->source; }
 const Place& ScalarFunction::place() const { return content_->place; }

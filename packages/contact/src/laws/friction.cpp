@@ -48,7 +48,7 @@ FrictionBound CoulombFriction::bound(const FrictionPoint& point) const {
   if (!is_coefficient(value) || (reads_temperature() && !std::isfinite(point.temperature))) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
   FrictionBound result{value * p, 0.0};
   if (largest_traction && result.value >= *largest_traction) return {*largest_traction, 0.0};
-  if (!coefficient.depends_on(0)) return {result.value, value};
+  if (coefficient.is_constant()) return {result.value, value};
   const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * p;
   const auto at = [&](double pressure) { return coefficient_at(pressure) * pressure; };
   result.slope = step > 0.0 ? (at(p + step) - at(p - step)) / (2.0 * step) : coefficient_at(0.0);

@@ -17,7 +17,7 @@ struct FrictionLaw : Described {
   /// rho at a node; NaN where the law has none.
   virtual FrictionBound bound(const FrictionPoint& point) const = 0;
 
-  /// True if FrictionPoint::temperature is read.
+  /// True if FrictionPoint::temperature is known to be read: archives keep it.
   virtual bool reads_temperature() const { return false; }
 
   /// A number that rho / pressure never exceeds; infinite where none is known.

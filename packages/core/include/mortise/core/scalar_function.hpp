@@ -23,7 +23,7 @@ class ScalarFunction {
   ScalarFunction(double value, std::string source, Place place);
 
   /// The function that `body` computes, which messages show as `source`, given at `place`.
-  /// @param reads  [arguments] 0 for one that it does not depend on; empty, or beyond its end: it may depend on it
+  /// @param reads  [arguments] 1 for one that it depends on, else 0; empty: it is not known
   ScalarFunction(Body body, std::string source, Place place = {}, std::vector<char> reads = {});
 
   /// Value at `arguments`; not finite where the function has none.
@@ -33,7 +33,7 @@ class ScalarFunction {
   double operator()(double t = 0.0, double x = 0.0, double y = 0.0, double z = 0.0) const;
 
   bool is_constant() const;                     ///< depends on none of its arguments
-  bool depends_on(std::size_t argument) const;  ///< may depend on one of them; false of those that it is known not to depend on
+  bool depends_on(std::size_t argument) const;  ///< is known to depend on one of them, by its place
   const std::string& source() const;            ///< as messages show it; of a constant its shortest exact text unless given
   const Place& place() const;                   ///< where it was given; may be empty
 
