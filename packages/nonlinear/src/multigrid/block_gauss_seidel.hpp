@@ -8,7 +8,7 @@
 
 namespace mortise::detail {
 
-/// The matrix A of several fields by its blocks A_fg.
+/// The matrix A of several fields by its blocks A_fg with g >= f: those that a sweep from the last field to the first needs.
 class FieldBlocks {
  public:
   /// Collective.
@@ -16,7 +16,8 @@ class FieldBlocks {
 
   std::size_t fields() const { return parts_.size(); }
   const FieldPart& part(std::size_t field) const { return parts_[field]; }
-  const RCP<const Matrix>& block(std::size_t rows, std::size_t columns) const { return blocks_[rows][columns]; }
+  /// @param columns  not before `rows`
+  const RCP<const Matrix>& block(std::size_t rows, std::size_t columns) const { return blocks_[rows][columns - rows]; }
 
  private:
   std::vector<FieldPart> parts_;

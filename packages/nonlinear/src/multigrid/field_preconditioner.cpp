@@ -2,12 +2,18 @@
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
-#include <cstdlib>
 #include <utility>
 
 #include "multigrid/scalar_decoupling.hpp"
 
 namespace mortise::detail {
+namespace {
+
+/// Of the diagonal: what aggregates of fields of one unknown at a node do not reach across. Cells that are not stretched couple corners by 3 % and
+/// more.
+constexpr double weakest_coupling = 0.02;
+
+}  // namespace
 
 EquationsOfFields::EquationsOfFields(const RCP<const Matrix>& matrix, const MultigridInput& multigrid, const FieldsOfRows* fields)
     : rows_(matrix->getRowMap()) {
@@ -24,8 +30,7 @@ EquationsOfFields::EquationsOfFields(const RCP<const Matrix>& matrix, const Mult
     const FieldPart& first = blocks_->part(0);
     const Decoupling of_first = part_of(multigrid.decoupling(), first);
     fields_[0].decoupled = decoupled(fields_[0].matrix, of_first);
-    static const bool off = std::getenv("MORTISE_NO_JOIN") != nullptr;
-    for (std::size_t field = 1; field < fields_.size() && !off; ++field)
+    for (std::size_t field = 1; field < fields_.size(); ++field)
       fields_[field].decoupled = decoupled(fields_[field].matrix, scalar_decoupling(*fields_[field].matrix, blocks_->part(field), first, of_first));
   }
   if (multigrid.near_null_space)
@@ -33,12 +38,11 @@ EquationsOfFields::EquationsOfFields(const RCP<const Matrix>& matrix, const Mult
 }
 
 std::vector<MultigridHierarchy> EquationsOfFields::hierarchies(const Teuchos::ParameterList& given, Smoother smoother) const {
-  static const char* tol = std::getenv("MORTISE_TOL");
   std::vector<MultigridHierarchy> result;
   for (std::size_t field = 0; field < fields_.size(); ++field) {
     const auto& [matrix, decoupled, near_null_space] = fields_[field];
     const NearNullSpace modes = near_null_space ? near_null_space() : NearNullSpace{};
-    result.push_back(make_hierarchy(matrix, decoupled.get(), modes, given, smoother, field == 0 ? 0.0 : tol ? std::atof(tol) : 0.02));
+    result.push_back(make_hierarchy(matrix, decoupled.get(), modes, given, smoother, field == 0 ? 0.0 : weakest_coupling));
   }
   return result;
 }

@@ -48,7 +48,7 @@ JoinedNode joined_node(const Matrix& A, LocalOrdinal row, const std::vector<Glob
   for (LocalOrdinal k = 0; k < entries.length; ++k) {
     const GlobalOrdinal column = A.getColMap()->getGlobalElement(entries.colidx(k));
     if (column == own) diagonal = entries.value(k);
-    if (column == own || !(entries.value(k) < 0.0) || !std::binary_search(masters.begin(), masters.end(), column)) continue;
+    if (column == own || entries.value(k) == 0.0 || !std::binary_search(masters.begin(), masters.end(), column)) continue;
     node.masters.push_back(column);
     node.shares.push_back(-entries.value(k));
     beta -= entries.value(k);
