@@ -131,19 +131,6 @@ Solved solve(const HotGrid& grid, const Vector& b, double tolerance = 1e-10) {
   return {iterations, {grid.norm(0, r), grid.norm(1, r)}};
 }
 
-// Preconditioners of the fields whose iterations do not depend on the size of the grid make one of both, as long as the coupling is bounded by the
-// blocks: iterations may grow by a half while the unknowns grow sixteenfold. K and H are second differences and G a first one, so that feedback as
-// strong on any grid is in proportion to n^-2.
-TEST(HotBlocks, AreSolvedInAboutAsManyIterationsOnFinerGrids) {
-  std::vector<int> iterations;
-  for (const int n : {24, 96}) {
-    const HotGrid grid(n, 1.0, 1.0 / (n * n));
-    iterations.push_back(solve(grid, grid.loads(1.0, 1.0)).iterations);
-    RecordProperty("iterations_" + std::to_string(n), iterations.back());
-  }
-  EXPECT_LE(iterations[1], 1.5 * iterations[0]);
-}
-
 // Units are anybody's choice: iterations are the same, and each field is solved to the tolerance of its own right-hand side.
 TEST(HotBlocks, AreSolvedFieldByFieldInAnyUnits) {
   const double tolerance = 1e-8;
