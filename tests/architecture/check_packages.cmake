@@ -26,7 +26,7 @@ set(packages core input shape mesh material mortar contact thermal_contact plain
 set(packages_with_rooms simulation nonlinear contact mortar)
 set(rooms_simulation surfaces quantities scene model run/stepping run/watches run/path run/diagnosis run/output run/restart run)
 set(allowed_simulation_surfaces)
-set(allowed_simulation_quantities)
+set(allowed_simulation_quantities surfaces)
 set(allowed_simulation_scene quantities surfaces)
 set(allowed_simulation_model scene quantities surfaces)
 set(allowed_simulation_run/stepping model scene quantities surfaces)

@@ -5,7 +5,7 @@
 #include <Tpetra_Core.hpp>
 
 #include "linear_systems.hpp"
-#include "multigrid/block_gauss_seidel.hpp"
+#include "multigrid/fields/block_gauss_seidel.hpp"
 
 namespace mortise {
 namespace {

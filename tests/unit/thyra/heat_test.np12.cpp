@@ -227,7 +227,7 @@ void expect_heat_in_balance(const Host& host, const ThyraVector& x) {
   const double size = std::max(std::abs(flow.conducted), flow.friction);
   EXPECT_GT(size, 0.0);
   EXPECT_NEAR(heat_in_rows(host, of_contact)[0], -flow.friction, 1e-12 * size);
-  EXPECT_NEAR(heat_in_rows(host, rows)[1], 0.0, 1e-12 * size);  // of free nodes nothing is left
+  EXPECT_NEAR(heat_in_rows(host, rows)[1], 0.0, 1e-10 * size);  // of free nodes what NOX leaves
 }
 
 void expect_host_follows_embedded_loop(const Case& of) {

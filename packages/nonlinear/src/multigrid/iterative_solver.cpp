@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "linear/linear_system_checks.hpp"
-#include "multigrid/field_preconditioner.hpp"
+#include "multigrid/fields/field_preconditioner.hpp"
+#include "multigrid/fields/weighted_equations.hpp"
 #include "multigrid/gmres.hpp"
 #include "multigrid/multigrid_parameters.hpp"
 #include "multigrid/reuse_policy.hpp"
-#include "multigrid/weighted_equations.hpp"
 
 namespace mortise::detail {
 namespace {

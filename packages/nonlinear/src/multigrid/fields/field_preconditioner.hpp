@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "multigrid/block_gauss_seidel.hpp"
 #include "multigrid/contact_preconditioner.hpp"
+#include "multigrid/fields/block_gauss_seidel.hpp"
 
 namespace mortise::detail {
 

@@ -1,4 +1,4 @@
-#include "multigrid/scalar_decoupling.hpp"
+#include "multigrid/fields/scalar_decoupling.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>

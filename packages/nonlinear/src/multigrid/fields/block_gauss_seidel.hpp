@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "multigrid/field_blocks.hpp"
+#include "multigrid/fields/field_blocks.hpp"
 
 namespace mortise::detail {
 

@@ -1,10 +1,10 @@
-#include "multigrid/field_preconditioner.hpp"
+#include "multigrid/fields/field_preconditioner.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <utility>
 
-#include "multigrid/scalar_decoupling.hpp"
+#include "multigrid/fields/scalar_decoupling.hpp"
 
 namespace mortise::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "multigrid/weighted_equations.hpp"
+#include "multigrid/fields/weighted_equations.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>

@@ -1,4 +1,4 @@
-#include "multigrid/field_blocks.hpp"
+#include "multigrid/fields/field_blocks.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>

@@ -1,4 +1,4 @@
-#include "multigrid/block_gauss_seidel.hpp"
+#include "multigrid/fields/block_gauss_seidel.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>

@@ -2,7 +2,7 @@
 // Fields of one unknown at a node that contact couples strongly.
 
 #include "mortise/contact/decoupling.hpp"
-#include "multigrid/field_blocks.hpp"
+#include "multigrid/fields/field_blocks.hpp"
 
 namespace mortise::detail {
 
