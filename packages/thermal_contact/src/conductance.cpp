@@ -40,11 +40,7 @@ void PowerConductance::describe(Parameters& parameters) {
 // derivative by it, (m - 1) (h - h_g) / p_largest at a node that bears less than p_s, is left out: it would couple all nodes, and it is 1e-6 of the
 // largest one.
 Conductance PowerConductance::at(const TouchingPoint& point) const {
-  const double p = point.pressure, least = of_largest * point.largest_pressure;
-  if (!(p > 0.0)) {
-    const double slope = least > 0.0 ? factor * std::pow(least / hardness, exponent) / least : 0.0;
-    return {without_pressure, slope, 0.0, 0.0};
-  }
+  const double p = point.pressure, least = of_largest * (point.largest_pressure > 0.0 ? point.largest_pressure : hardness);
   if (p < least) {
     const double slope = factor * std::pow(least / hardness, exponent) / least;
     return {without_pressure + slope * p, slope, 0.0, 0.0};
@@ -86,6 +82,11 @@ void ConductanceFunction::describe(Parameters& parameters) {
 }
 
 // Central differences are exact to about 1e-10, which no Newton step notices. An argument of 0 has no size to tell a step by: its slope counts as 0.
+namespace {
+/// Step of a difference at an argument of 0, which has no size.
+constexpr double from_zero = 1e-5;
+}  // namespace
+
 Conductance ConductanceFunction::at(const TouchingPoint& point) const {
   const std::array<double, 3> at = {point.pressure, point.temperature, point.slip_rate};
   const auto value_at = [&](std::size_t changed, double by) {
@@ -98,8 +99,9 @@ Conductance ConductanceFunction::at(const TouchingPoint& point) const {
   if (conductance.is_constant()) return result;
   const std::array<double*, 3> slopes = {&result.of_pressure, &result.of_temperature, &result.of_slip_rate};
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * std::abs(at[i]);
-    if (step > 0.0) *slopes[i] = (value_at(i, step) - value_at(i, -step)) / (2.0 * step);
+    const double step = at[i] != 0.0 ? std::cbrt(std::numeric_limits<double>::epsilon()) * std::abs(at[i]) : from_zero;
+    const double back = at[i] == 0.0 && i != 1 ? 0.0 : step;  // pressures and slip rates are not negative
+    *slopes[i] = (value_at(i, step) - value_at(i, -back)) / (step + back);
   }
   return result;
 }

@@ -137,7 +137,8 @@ std::optional<RowsOfHeat> rows_of_heat(const FieldTransfer& transfer, std::size_
     const Dependent mean = 0.5 * (of_node.sum([&](Eigen::Index m) { return is_slave(m) ? 1.0 : -1.0; }, known) / weight);
     Dependent h = of_node.zero();
     if (closed) {
-      const bool presses = node.pressure.value > 0.0;
+      // A node that has just closed has p = 0. There the slope is that to the right: the first correction already sees that heat comes with pressure.
+      const bool presses = node.pressure.value >= 0.0;
       const double rate = laws.time_step > 0.0 ? node.slip.value / laws.time_step : 0.0;
       const Conductance law = laws.conductance->at({presses ? node.pressure.value : 0.0, mean.value, rate, laws.largest_pressure});
       if (presses) h += law.of_pressure * of_node.of(node.pressure);

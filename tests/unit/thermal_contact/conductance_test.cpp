@@ -54,6 +54,15 @@ TEST(Conductance, HasTheSlopesOfDifferences) {
   }
 }
 
+TEST(ConductanceFunction, HasItsSlopesAtZero) {
+  ConductanceFunction function;
+  function.conductance = ScalarFunction([](const std::vector<double>& of) { return 3.0 * of[0] + 2.0 * of[1] + 5.0 * of[2]; }, "h");
+  const Conductance h = function.at({0.0, 0.0, 0.0, 0.0});
+  EXPECT_NEAR(h.of_pressure, 3.0, 1e-9);
+  EXPECT_NEAR(h.of_temperature, 2.0, 1e-9);
+  EXPECT_NEAR(h.of_slip_rate, 5.0, 1e-9);
+}
+
 // (p / H)^m has no bounded slope at 0: the secant from a millionth of the largest pressure on does, and joins.
 TEST(PowerConductance, IsASecantBelowAMillionthOfTheLargestPressure) {
   const PowerConductance law = rough();
@@ -63,7 +72,9 @@ TEST(PowerConductance, IsASecantBelowAMillionthOfTheLargestPressure) {
   EXPECT_NEAR(law.at({0.5 * least, 300.0, 0.0, 5.0}).value, 0.5 + 0.5 * there, 1e-12 * there);
   EXPECT_EQ(law.at({0.0, 300.0, 0.0, 5.0}).value, 0.5);
   EXPECT_NEAR(law.at({0.0, 300.0, 0.0, 5.0}).of_pressure, there / least, 1e-12 * there / least);
-  EXPECT_EQ(law.at({0.0, 300.0, 0.0, 0.0}).of_pressure, 0.0);  // nothing presses anywhere
+  const double of_hardness = 1e-6 * 20.0;  // where nothing presses anywhere, as where the first node closes
+  EXPECT_NEAR(law.at({0.0, 300.0, 0.0, 0.0}).of_pressure, 8.0 * std::pow(1e-6, 0.95) / of_hardness,
+              1e-12 * law.at({0.0, 300.0, 0.0, 0.0}).of_pressure);
   EXPECT_NEAR(law.at({2.0, 300.0, 0.0, 5.0}).value, 0.5 + 8.0 * std::pow(0.1, 0.95), 1e-14);
 }
 

@@ -150,6 +150,52 @@ def cosine(element, conductance, slave, level):
     return scene, exact
 
 
+class Rod:
+    """A rod that is held and heated at its top, by a temperature that rises from 0 to 200. It grows by its mean temperature until it touches a cold wall,
+    which cools it: with a conductance h that begins at 0 with the pressure there is one state. Nothing moves sideways. In it, of the length L and with small
+    strains (2e-4),
+
+        theta_s = Theta - q L / k,   theta_w = q W / k,   q = h(p) (theta_s - theta_w),
+        p (L + W) / E = a L (Theta + theta_s) / 2 + a W theta_w / 2 - gap."""
+    length, wall, conductivity, modulus, expansion, hottest = 10.0, 1.0, 50.0, 2e5, 1e-6, 200.0
+
+    def __init__(self, strength, exponent, gap, steps):
+        """h = strength p^exponent; the gap, over the growth of the rod that is as hot as its top in the end."""
+        self.strength, self.exponent, self.steps = strength, exponent, steps
+        self.gap = gap * self.expansion * self.length * self.hottest
+
+    def scene(self, law):
+        steel = {"type": "hencky", "young's modulus": self.modulus, "poisson's ratio": 0, "heat": {"conductivity": self.conductivity},
+                 "thermomechanics": {"expansion coefficient": self.expansion, "reference temperature": 0}}
+        laws = {"power": {"type": "power", "factor": self.strength, "hardness": 1, "exponent": self.exponent},
+                "function": {"type": "function", "conductance": f"{self.strength}*pressure^{self.exponent}"},
+                "table": {"type": "table", "pressures": "0, 1000", "conductances": f"0, {1000 * self.strength}"}}
+        return {
+            "kinematics": "plane strain", "materials": {"steel": steel},
+            "bodies": {"rod": {"material": "steel", "mesh": block(2, self.length, 2, 10, 0, self.gap)},
+                       "wall": {"material": "steel", "mesh": block(2, self.wall, 3, 1, 0, -self.wall)}},
+            "sets": {f"whole {body}": {"of": body, "kind": "nodes"} for body in ("rod", "wall")},
+            "boundary conditions": {"foot": {"set": "wall/bottom", "y": 0}, "held": {"set": "rod/top", "y": 0}, "rod": {"set": "whole rod", "x": 0},
+                                    "wall": {"set": "whole wall", "x": 0}},
+            "contact": {"joint": {"slave": "rod/bottom", "master": "wall/top", "heat": {"conductance": laws[law]}}},
+            "heat": {"analysis": "steady", "initial temperature": 0,
+                     "temperatures": {"hot": {"set": "rod/top", "temperature": f"{self.hottest}*t"}, "cold": {"set": "wall/bottom", "temperature": 0}}},
+            "stepping": {"step": 1 / self.steps, "end time": 1}, "output": {"fields": ""},
+            "quantities": {"force": {"type": "reaction", "set": "wall/bottom", "component": "y"}, "q": {"type": "heat flow", "pair": "joint"}}}
+
+    def state(self):
+        """p and q, by bisection: what p should be falls as p rises."""
+        low, high = 0.0, self.modulus
+        for _ in range(200):
+            p = 0.5 * (low + high)
+            h = self.strength * p ** self.exponent
+            q = h * self.hottest / (1 + h * (self.length + self.wall) / self.conductivity)
+            surface, of_wall = self.hottest - q * self.length / self.conductivity, q * self.wall / self.conductivity
+            growth = self.expansion * (self.length * (self.hottest + surface) + self.wall * of_wall) / 2 - self.gap
+            low, high = (p, high) if self.modulus * growth / (self.length + self.wall) > p else (low, p)
+        return p, q
+
+
 def rubbing(share, level):
     """Two wide flat layers slide over a hundredth of their width: in the middle they are half spaces with a flux of heat. The scene, and the rise of either
     surface over the power per area, 2 share sqrt(t / (pi k rho c)) with t = 1.
@@ -175,7 +221,7 @@ def rubbing(share, level):
         "boundary conditions": {"foot": {"set": "rail/bottom", "x": 0, "y": 0}, "drive": {"set": "pad/top", "x": f"{elastic:.6g} + 0.2*t", "y": -squeeze}},
         "contact": {"joint": pair},
         "heat": {"analysis": "transient", "initial temperature": 0},
-        "stepping": {"step": 0.04 / level ** 2, "end time": 1}, "output": {"fields": ""}, "newton": {"line search": "none"},
+        "stepping": {"step": 0.04 / level ** 2, "end time": 1}, "output": {"fields": ""},
         "quantities": {"shear": {"type": "contact traction", "x": 0, "part": "shear"}, "power": {"type": "formula", "value": "abs(shear)*0.2"},
                        "pad": temperature_at((0, 1), "pad"), "rail": temperature_at((0, 1), "rail"), "balance": {"type": "heat balance"}},
     }

@@ -6,8 +6,8 @@ import math
 import sys
 
 import moose_cases
-from contact_heat_scenes import at, brake, cosine, patch, refined, rubbing, wild_scene
-from heat_scenes import Runs, exchanged
+from contact_heat_scenes import Rod, at, brake, cosine, patch, refined, rubbing, wild_scene
+from heat_scenes import Runs, exchanged, put
 
 PATCHES = [("Q4", 2), ("T3", 2), ("Q8", 2), ("T6", 2), ("H8", 3), ("Tet4", 3)]
 
@@ -62,6 +62,33 @@ def brakes(runs, check):
         check(abs(values["lever"] / arm - 1) < 0.01, f"brake, {'even wear' if wear else 'even pressure'}: arm {values['lever']:.3f}, closed form {arm:.3f}")
 
 
+def rods(runs, check):
+    """Contact that heat closes and cooling opens, with the gap of half to nearly all of the growth, in one step of heating or many, weak and strong laws.
+
+    Bounds: 2e-4 / (1 - gap) of the flow and of the pressure of a rod that keeps its heat. The closed form is linear in strains, which are 2e-4, and what
+    is left of the growth beyond the gap is its difference. A conductance that is there at once where surfaces touch leaves no state between open and
+    closed: exit code 3, and words that say so."""
+    worst, failed, ran = 0.0, [], 0
+    for gap in (0.3, 0.7, 0.97):
+        for strength, exponent in ((0.02, 1), (50, 1), (50, 0.95), (5, 0.5)):
+            for steps in (1, 7):
+                rod = Rod(strength, exponent, gap, steps)
+                for law in ("power", "function") + (("table",) if exponent == 1 else ()):
+                    ran += 1
+                    name = f"rod_{gap}_{strength}_{exponent}_{steps}_{law}"
+                    code, said, values, _ = runs.run(name, rod.scene(law))
+                    p, q = rod.state()
+                    error = max(abs(abs(values["force"]) / 2 - p) / (rod.modulus * rod.expansion * rod.hottest), abs(values["q"] / 2 - q) / q) if code == 0 else math.nan
+                    worst = max(worst, error * (1 - gap))
+                    if not error < 2e-4 / (1 - gap):
+                        failed.append(f"{name}: exit {code}, {error:.1e}, {said.strip().splitlines()[-2][:200]}")
+    check(not failed, f"{ran} rods that heat presses on a cold wall: p and q are off by {worst:.1e} / (1 - gap)" + "".join("\n        " + one for one in failed))
+    scene = Rod(50, 1, 0.7, 20).scene("power")
+    put(scene, "contact/joint/heat/conductance", {"type": "constant", "value": 50})
+    code, said, _, _ = runs.run("rod_constant", scene)
+    check(code == 3 and "begin to touch" in said, f"a rod with a constant conductance: exit {code}, explained: {'begin to touch' in said}")
+
+
 def wild_scenes(runs, check, count, first):
     """Balance to 1e-10; stored heat and temperatures are those with slave and master exchanged and of finer meshes, up to errors of the meshes."""
     ran = 0
@@ -102,6 +129,7 @@ def main():
     patches(runs, check)
     varied_flux(runs, check, [("T3", 1e3, "upper", (1, 2)), ("Q8", 1e3, "lower", (1, 2)), ("H8", 1.0, "upper", (1, 2))])
     half_spaces(runs, check)
+    rods(runs, check)
     brakes(runs, check)
     moose_cases.compare(runs, check, moose_cases.CASES[:5])
     sys.exit(failures > 0)

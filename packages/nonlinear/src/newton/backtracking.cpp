@@ -37,8 +37,7 @@ bool Backtracking::compute(NOX::Abstract::Group& group, double& step, const NOX:
       changes_states = iterate.norms().active_set != before.norms().active_set;
       if (changes_states) shortest = std::max(shortest, shortest_beside_kinks * longest);
     }
-    const bool falls = iterate.getNormF() <= (1.0 - sufficient_decrease * length) * before.getNormF();
-    if (!falls && !is_stuck && !is_below_tolerances(iterate.norms())) continue;
+    if (!falls(before.norms(), iterate.norms(), sufficient_decrease * length) && !is_stuck && !is_below_tolerances(iterate.norms())) continue;
     shortened_ = length < longest && iterate.norms().active > 0 ? shortened_ + 1 : 0;
     return true;
   }
@@ -48,6 +47,20 @@ bool Backtracking::compute(NOX::Abstract::Group& group, double& step, const NOX:
     return true;
   step = 0.0;
   return false;
+}
+
+bool Backtracking::falls(const ResidualNorms& before, const ResidualNorms& now, double share) const {
+  if (now.fields.empty()) return now.merit <= (1.0 - share) * before.merit;
+  double old_squares = 0.0, new_squares = 0.0;
+  for (std::size_t field = 0; field < now.fields.size(); ++field) {
+    const double size = std::max(before.fields[field].reference, now.fields[field].reference);
+    if (size == 0.0) continue;
+    old_squares += std::pow(before.fields[field].merit / size, 2);
+    new_squares += std::pow(now.fields[field].merit / size, 2);
+  }
+  const FieldMerit &old_first = before.fields.front(), &new_first = now.fields.front();
+  const bool is_out_of_balance = old_first.merit > options_.momentum_tolerance * std::max(old_first.reference, new_first.reference);
+  return (is_out_of_balance && new_first.merit <= (1.0 - share) * old_first.merit) || new_squares <= std::pow(1.0 - share, 2) * old_squares;
 }
 
 bool Backtracking::is_below_tolerances(const ResidualNorms& norms) const {

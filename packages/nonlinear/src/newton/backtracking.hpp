@@ -21,6 +21,10 @@ inline double negligible_correction(const NewtonOptions& options, double length)
 /// * it changes states, and no step of 1/32 of it or more makes the merit fall;
 /// * three steps in a row were shortened with nodes in contact;
 /// * no step makes the merit fall, and the longest is negligible: the merit jumps there, and whether it is small enough is not asked here.
+///
+/// Several fields have no common unit. Heat that friction sets free appears at once where contact begins to slip, however well momentum is in
+/// balance: it may not stop a step that leads motion to balance. So a step may be taken in two cases: the merit m_0 of the first field falls, which
+/// is above its tolerance, or sum_f (m_f / S_f)^2 does, with S_f the larger of the references of both iterates.
 class Backtracking : public NOX::LineSearch::Generic {
  public:
   Backtracking(const NewtonOptions& options, double length) : options_(options), length_(length) {}
@@ -30,6 +34,8 @@ class Backtracking : public NOX::LineSearch::Generic {
   bool compute(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction, const NOX::Solver::Generic& solver) override;
 
  private:
+  /// m falls from `before` to `now` by `share` of itself or more.
+  bool falls(const ResidualNorms& before, const ResidualNorms& now, double share) const;
   bool is_below_tolerances(const ResidualNorms& norms) const;
 
   NewtonOptions options_;

@@ -328,7 +328,11 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
     for (std::size_t i = 0; i < prescribed_.size(); ++i) rows(prescribed_[i], 0) = stiffness_scale_of(prescribed_[i]) * deviation[i];
   }
   if (at.follow && !alone) at.follow->deviation(*at.d, stiffness_scale(), *r);
-  const double rows = total(sizes_.norms(*r));
+  const std::vector<double> of_rows = sizes_.norms(*r);
+  const double rows = total(of_rows);
+  if (force.size() > 1)
+    for (std::size_t field = 0; field < force.size(); ++field)
+      norms.fields.push_back({field == 0 ? std::hypot(of_rows[field], violation) : of_rows[field], force[field]});
   norms.finite = finite && std::isfinite(rows);
   if (!norms.finite) throw_if_any(comm(), failure);  // all ranks have the same norms
   norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "mortise/contact/contact_evaluation.hpp"
 #include "mortise/core/types.hpp"
@@ -19,6 +20,12 @@ struct EvaluatedSystem;
 const EvaluatedSystem& evaluated(const SystemEvaluation& evaluation);
 }  // namespace detail
 
+/// The residual of one field of several.
+struct FieldMerit {
+  double merit = 0.0;      ///< (|r|^2 + |s (u - prescribed)|^2)^1/2 of its rows; with sum_j |A_j C_j|^2 in the first field [unit of the rows]
+  double reference = 0.0;  ///< what |r| is relative to in ResidualNorms::momentum; likewise
+};
+
 /// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests look at. With several fields relative norms are
 /// the largest of all; absolute ones are in the units of the first, as if r were s times the size of each.
 struct ResidualNorms {
@@ -30,6 +37,7 @@ struct ResidualNorms {
   double gap = 0.0;                       ///< ContactNorms::gap
   double complementarity = 0.0;           ///< ContactNorms::complementarity
   double merit = 0.0;                     ///< (|r|^2 + |s (d - prescribed)|^2 + sum_j |A_j C_j|^2)^1/2, a force; infinite if that is not finite
+  std::vector<FieldMerit> fields;         ///< [fields] where there are several, else empty
   int active = 0;                         ///< closed nodes
   int sticking = 0;                       ///< of them
   int changed = 0;                        ///< ContactNorms::changed

@@ -32,6 +32,7 @@ class ContactHeatBook final : public ContactContribution {
   void serialize(StateArchive& archive) override;
 
   long calls() const { return calls_; }
+  const std::vector<ThermalPair>& pairs() const { return pairs_; }
   /// Index of a pair of the scene among pairs(); none: no heat flows across it.
   std::optional<std::size_t> index(std::size_t pair_of_scene) const;
   /// A history in which friction sees the temperatures of the state that was committed last; at the start those of the slave nodes themselves. Any

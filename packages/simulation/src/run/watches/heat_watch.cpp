@@ -89,6 +89,30 @@ void HeatWatch::look_for_undershoot(const SemiSmoothSystem& system, const System
                   least_of_all, x[0], x[1], x[2], lowest_));
 }
 
+FailureExplanation HeatWatch::explain(const SemiSmoothSystem& system, const FailedTry& failed) {
+  const FailureKind kind = failed.failure.kind();
+  const bool may_be = kind == FailureKind::cycling_active_set || kind == FailureKind::too_many_iterations || kind == FailureKind::line_search;
+  if (!may_be || !model_.heat().contact || !failed.linearised) return {};
+  const bool expands = std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                                   [](const auto& material) { return material.value.law.options->thermal.expansion.is_given(); });
+  if (!expands) return {};
+  const SystemEvaluation evaluation = system.evaluate(*failed.linearised->x, failed.linearised->context);
+  for (const ThermalPair& pair : model_.heat().contact->pairs()) {
+    if (!pair.conductance || pair.gap) continue;
+    const double just_closed = pair.conductance->at({0.0, std::isfinite(highest_) ? highest_ : 0.0, 0.0, 1.0}).value;
+    const std::vector<ContactNodeState> states = node_states(evaluation.contact_laws(), pair.pair);
+    const bool mine =
+        std::any_of(states.begin(), states.end(), [](const ContactNodeState& node) { return node.closed ? node.pressure <= 0.0 : node.gap < 0.0; });
+    if (!(just_closed > 0.0) || most_over_ranks(*model_.mesh()->comm, mine ? 1 : 0) == 0) continue;
+    return {
+        fmt::format("contact \"{}\": where surfaces begin to touch the conductance is {:.3g} at once, and 0 where they do not: contact that closes "
+                    "cools, shrinks and opens, and no state need exist between the two; please give the pair a \"gap conductance\" that agrees "
+                    "with it at a gap of 0, or a \"conductance\" that begins at 0 with the pressure",
+                    scene_.contact[pair.pair].name, just_closed)};
+  }
+  return {};
+}
+
 void HeatWatch::accept(const SemiSmoothSystem& system, const SystemEvaluation& at) {
   const double time = at.context().time;
   const RCP<const Vector> forces = at.forces();

@@ -17,6 +17,9 @@ namespace mortise {
 class HeatWatch final : public StepGuard {
  public:
   HeatWatch(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn);
+  /// Pairs whose heat sets in at once where they touch, while bodies expand: contact that closes cools and opens, and a state between need not exist
+  /// (Barber 1978, Z. angew. Math. Phys. 29, 813: with a resistance that depends on the pressure one does).
+  FailureExplanation explain(const SemiSmoothSystem& system, const FailedTry& failed) override;
   void accept(const SemiSmoothSystem& system, const SystemEvaluation& at) override;
   std::optional<StepFailure> end(const SemiSmoothSystem& system, const EndOfSteps& steps) override;
   void serialize(StateArchive& archive) override;
