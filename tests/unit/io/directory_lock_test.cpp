@@ -3,6 +3,7 @@
 #include "files/directory_lock.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -68,6 +69,48 @@ TEST(DirectoryLockByName, ALaterProcessOfTheSameNumberIsAnother) {
   std::ofstream(scratch.file(".mortise.lock")) << this_host() << " " << getpid() << " 1 2026-01-01T00:00:00Z\n";
   DirectoryLock lock(no_locks);
   EXPECT_EQ(lock.take(scratch.path()), std::nullopt);
+}
+
+// Eight processes start at once, 25 times, where a process that died has left its lock.
+TEST(DirectoryLockByName, HasOneHolderOfManyThatStartAtOnce) {
+  constexpr int rounds = 25, starts = 8;
+  for (int round = 0; round < rounds; ++round) {
+    const test::ScratchDirectory scratch(Tpetra::getDefaultComm());
+    std::ofstream(scratch.file(".mortise.lock")) << this_host() << " " << getpid() << " 1 2026-01-01T00:00:00Z\n";
+    std::array<int, 2> begin{}, end{}, won{};
+    ASSERT_EQ(pipe(begin.data()) + pipe(end.data()) + pipe(won.data()), 0);
+    std::vector<pid_t> children;
+    for (int child = 0; child < starts; ++child) {
+      children.push_back(fork());
+      if (children.back() != 0) continue;
+      close(begin[1]), close(end[1]);
+      char none = 0;
+      if (read(begin[0], &none, 1) < 0) _exit(2);  // the end of the file: all begin
+      DirectoryLock lock(no_locks);
+      const char taken = lock.take(scratch.path()) ? 'n' : 'y';
+      if (write(won[1], &taken, 1) != 1 || read(end[0], &none, 1) < 0) _exit(2);
+      _exit(0);
+    }
+    close(begin[1]);
+    int holders = 0;
+    for (int child = 0; child < starts; ++child) {
+      char taken = 0;
+      ASSERT_EQ(read(won[0], &taken, 1), 1);
+      holders += taken == 'y' ? 1 : 0;
+    }
+    close(end[1]);
+    for (const pid_t child : children) waitpid(child, nullptr, 0);
+    for (const int one : {begin[0], end[0], won[0], won[1]}) close(one);
+    EXPECT_EQ(holders, 1) << "in round " << round;
+  }
+}
+
+TEST(DirectoryLockInAPipe, IsRefused) {
+  const test::ScratchDirectory scratch(Tpetra::getDefaultComm());
+  ASSERT_EQ(mkfifo(scratch.file(".mortise.lock").c_str(), 0600), 0);
+  EXPECT_EQ(lock_holder(scratch.path(), no_locks), std::nullopt);
+  DirectoryLock lock;
+  EXPECT_THAT(lock.take(scratch.path()), Optional(HasSubstr("is no file; please remove it")));
 }
 
 TEST(DirectoryLockByName, OneOfAnotherHostIsRefusedWithWhatToDo) {

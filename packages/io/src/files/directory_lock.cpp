@@ -22,6 +22,7 @@ namespace mortise {
 namespace {
 
 /// A process that only asks whether a lock is held holds it for an instant; a process that was killed takes a while to end.
+constexpr std::time_t being_filled = 10;  ///< seconds in which a file without a text may get one, where it cannot come into being with it
 constexpr auto patience = std::chrono::milliseconds(500), pause_between_tries = std::chrono::milliseconds(20);
 
 /// The process that holds the lock, as its file describes it.
@@ -73,6 +74,9 @@ std::string being_written(const std::optional<LockHolder>& holder) {
 /// True if the file system has no locks, rather than one that is held.
 bool has_no_locks(int error) { return error == ENOLCK || error == EOPNOTSUPP || error == ENOTSUP || error == ENOSYS; }
 
+/// True if the file system has no hard links.
+bool has_no_links(int error) { return error == EPERM || error == EOPNOTSUPP || error == ENOTSUP || error == ENOSYS; }
+
 /// Why a lock whose file names this holder is held, where the file alone is the lock.
 std::optional<std::string> held_by_name(const std::optional<LockHolder>& holder, const std::string& path) {
   if (!holder) return {};
@@ -94,6 +98,28 @@ std::optional<std::string> write_holder(int file) {
   return std::strerror(errno);
 }
 
+bool is_file(int file) {
+  struct stat status {};
+  return fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+/// Opens the file of a lock to read it. Anything but a file, such as a pipe, is not waited for.
+int open_lock(const std::string& path) { return open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK); }
+
+/// Why the lock is held, where the file alone is the lock. `is_pending`: the file is about to get its text, or to go away.
+std::optional<std::string> held_at(const std::string& path, bool& is_pending) {
+  is_pending = false;
+  const int file = open_lock(path);
+  if (file < 0) return {};
+  const auto holder = read_holder(file);
+  struct stat status {};
+  const bool is_new = fstat(file, &status) == 0 && std::time(nullptr) - status.st_mtime < being_filled;
+  close(file);
+  is_pending = !holder && is_new;
+  if (is_pending) return being_written(holder);
+  return held_by_name(holder, path);
+}
+
 std::string lock_of(const std::string& directory) { return directory + "/" + lock_name; }
 
 }  // namespace
@@ -102,8 +128,15 @@ std::optional<std::string> DirectoryLock::take(const std::string& directory) {
   const std::string path = lock_of(directory);
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (true) {
-    const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    int file = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    const bool is_mine = file < 0 && errno == ENOENT;
+    if (is_mine) file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (is_mine && file < 0 && errno == EEXIST) continue;  // another one was faster
     if (file < 0) return fmt::format("{}: {}", path, std::strerror(errno));
+    if (!is_file(file)) {
+      close(file);
+      return fmt::format("{} is no file; please remove it", path);
+    }
     if (flock_(file, LOCK_EX | LOCK_NB) == 0) {
       if (!is_still_at(file, path)) {
         close(file);
@@ -118,6 +151,7 @@ std::optional<std::string> DirectoryLock::take(const std::string& directory) {
     }
     const int error = errno;
     const auto holder = read_holder(file);
+    if (has_no_locks(error) && is_mine && is_still_at(file, path)) unlink(path.c_str());  // it has no text
     close(file);
     if (has_no_locks(error)) return take_by_name(path);
     if (error != EWOULDBLOCK && error != EINTR) return fmt::format("{}: {}", path, std::strerror(error));
@@ -126,24 +160,53 @@ std::optional<std::string> DirectoryLock::take(const std::string& directory) {
   }
 }
 
+// The file comes into being with its text, by a link. One that is stale is removed by the process that holds the guard, a directory, and looks again
+// under it: nobody else makes a stale file go away, so what is removed is what was looked at.
 std::optional<std::string> DirectoryLock::take_by_name(const std::string& path) {
+  const std::string mine = fmt::format("{}.{}.{}", path, host_name(), getpid()), guard = path + ".guard";
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  const int file = open(mine.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (file < 0) return fmt::format("{}: {}", mine, std::strerror(errno));
+  const auto give_up = [&](const std::string& reason) {
+    unlink(mine.c_str());
+    close(file);
+    return reason;
+  };
+  if (const auto reason = write_holder(file)) return give_up(fmt::format("{}: {}", mine, *reason));
   while (true) {
-    if (const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW); file >= 0) {
-      const auto holder = read_holder(file);
-      close(file);
-      if (auto held = held_by_name(holder, path)) return held;
+    if (link(mine.c_str(), path.c_str()) == 0) break;
+    if (errno != EEXIST && has_no_links(errno)) {
+      const int made = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+      if (made >= 0) {
+        if (const auto reason = write_holder(made)) {
+          close(made);
+          return give_up(fmt::format("{}: {}", path, *reason));
+        }
+        unlink(mine.c_str());
+        close(file);
+        path_ = path, file_ = made;
+        return {};
+      }
     }
-    unlink(path.c_str());  // stale
-    const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (file < 0 && errno == EEXIST) continue;  // another one was faster
-    if (file < 0) return fmt::format("{}: {}", path, std::strerror(errno));
-    path_ = path, file_ = file;
-    if (const auto reason = write_holder(file)) {
-      release();
-      return fmt::format("{}: {}", path, *reason);
+    if (errno != EEXIST) return give_up(fmt::format("{}: {}", path, std::strerror(errno)));
+    const bool is_late = std::chrono::steady_clock::now() > deadline;
+    bool is_pending = false;
+    if (auto held = held_at(path, is_pending)) {
+      if (!is_pending || is_late) return give_up(*held);
+      std::this_thread::sleep_for(pause_between_tries);
+    } else if (mkdir(guard.c_str(), 0777) == 0) {
+      held = held_at(path, is_pending);
+      if (!held) unlink(path.c_str());
+      rmdir(guard.c_str());
+    } else if (is_late) {
+      return give_up(fmt::format("{} and {} are left of processes that have ended; please remove both", path, guard));
+    } else {
+      std::this_thread::sleep_for(pause_between_tries);
     }
-    return {};
   }
+  unlink(mine.c_str());
+  path_ = path, file_ = file;
+  return {};
 }
 
 void DirectoryLock::release() {
@@ -155,7 +218,7 @@ void DirectoryLock::release() {
 
 std::optional<std::string> lock_holder(const std::string& directory, DirectoryLock::Flock flock) {
   const std::string path = lock_of(directory);
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  const int file = open_lock(path);
   if (file < 0) return {};
   std::optional<std::string> held;
   if (flock(file, LOCK_SH | LOCK_NB) != 0) {

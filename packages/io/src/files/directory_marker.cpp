@@ -93,6 +93,19 @@ std::optional<std::string> remove_marked(const fs::path& directory, bool& stays)
 
 }  // namespace
 
+std::optional<std::string> sync_listed(const std::string& directory, const DirectoryMarker& marker) {
+  for (const auto& name : marker.names) {
+    const fs::path path = fs::path(directory) / name;
+    if (type_of(path) != fs::file_type::directory) continue;
+    std::optional<std::string> reason;
+    const auto found = read_marker(path.string(), reason);
+    if (!reason && found) reason = sync_listed(path.string(), *found);
+    if (reason) return reason;
+  }
+  if (auto reason = sync_file((fs::path(directory) / marker_name).string())) return reason;
+  return sync_directory(directory);
+}
+
 bool is_plain_name(const std::string& name) {
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   const auto own = own_files();
@@ -129,12 +142,12 @@ std::optional<DirectoryMarker> read_marker(const std::string& directory, std::op
   return marker;
 }
 
-std::optional<std::string> write_marker(const std::string& directory, const DirectoryMarker& marker) {
+std::optional<std::string> write_marker(const std::string& directory, const DirectoryMarker& marker, Survives survives) {
   std::string text = std::string(signature) + "\n";
   if (!marker.holds.empty()) text += holds_line + marker.holds + "\n";
   if (!marker.source.empty()) text += source_line + marker.source + "\n";
   for (const auto& name : marker.names) text += name + "\n";
-  return replace_file((fs::path(directory) / marker_name).string(), text);
+  return replace_file((fs::path(directory) / marker_name).string(), text, survives);
 }
 
 bool is_foreign(const std::string& directory, const DirectoryMarker& marker, const std::string& name) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mortise/io/files.hpp"
+
 namespace mortise {
 
 constexpr const char* marker_name = ".mortise";
@@ -26,7 +28,7 @@ struct DirectoryMarker {
 std::optional<DirectoryMarker> read_marker(const std::string& directory, std::optional<std::string>& reason);
 
 /// Replaces the marker at once. Returns why it could not.
-std::optional<std::string> write_marker(const std::string& directory, const DirectoryMarker& marker);
+std::optional<std::string> write_marker(const std::string& directory, const DirectoryMarker& marker, Survives survives = Survives::end_of_program);
 
 /// True if `name` is there and nothing says that the program made it. A directory that is listed has to have a marker of its own, or to be empty.
 bool is_foreign(const std::string& directory, const DirectoryMarker& marker, const std::string& name);
@@ -40,6 +42,9 @@ std::optional<std::string> busy_below(const std::string& directory, const std::v
 /// Removes only what is listed, and in directories only what their markers list. Follows no symbolic link. Leaves in `names` those of directories
 /// that stay, as they hold what is not listed. Returns why something could not be removed.
 std::optional<std::string> remove_listed(const std::string& directory, std::vector<std::string>& names);
+
+/// Brings the list of a directory to the disk, with its names, and so those of the directories that it lists. Returns why it could not.
+std::optional<std::string> sync_listed(const std::string& directory, const DirectoryMarker& marker);
 
 /// True if this can be the name of a file in a directory, and a line of a marker.
 bool is_plain_name(const std::string& name);

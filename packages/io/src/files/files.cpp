@@ -38,7 +38,7 @@ void throw_if_any_file_error(const Communicator& comm, const std::string& what, 
   throw FileError(fmt::format("{} {}: {}", what, path, text));
 }
 
-std::optional<std::string> replace_file(const std::string& path, const std::string& content) {
+std::optional<std::string> replace_file(const std::string& path, const std::string& content, Survives survives) {
   const std::string temporary = path + ".part";
   std::error_code none;
   std::filesystem::remove(temporary, none);  // it might be a link to a file elsewhere
@@ -54,12 +54,16 @@ std::optional<std::string> replace_file(const std::string& path, const std::stri
       return reason;
     }
   }
+  const bool is_for_disk = survives == Survives::loss_of_power;
+  std::optional<std::string> reason;
+  if (is_for_disk) reason = sync_file(temporary);  // else the new name may come to the disk before what is in the file
   std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (!error) return {};
+  if (!reason) std::filesystem::rename(temporary, path, error);
+  if (error) reason = error.message();
+  if (!reason) return is_for_disk ? sync_directory(std::filesystem::absolute(path).parent_path().string()) : std::nullopt;
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);
-  return error.message();
+  return reason;
 }
 
 std::optional<std::string> replace_end_of_file(const std::string& path, std::uintmax_t offset, const std::string& content) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -66,10 +67,27 @@ std::optional<std::string> link_among(const std::string& directory, const std::v
   return {};
 }
 
-std::optional<std::string> make_directory(const std::string& directory) {
+/// Adds to `made` what it had to make: the directory, and those above it.
+std::optional<std::string> make_directory(const std::string& directory, std::vector<std::string>& made) {
+  namespace fs = std::filesystem;
   std::error_code error;
-  std::filesystem::create_directories(directory, error);
+  for (fs::path there = fs::absolute(directory).lexically_normal(); !fs::exists(there, error) && there != there.root_path();
+       there = there.parent_path())
+    made.push_back(there.string());
+  fs::create_directories(directory, error);
   return error ? std::optional(error.message()) : std::nullopt;
+}
+
+/// Where results would mix with all that a user or the system has.
+std::optional<std::string> not_for_results(const std::string& directory) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(fs::absolute(directory), error);
+  const char* home = std::getenv("HOME");
+  if (path == path.root_path()) return fmt::format("it is the root of the file system; {}", another_place);
+  if (home != nullptr && *home != '\0' && path == fs::weakly_canonical(home, error))
+    return fmt::format("it is your home directory; {}", another_place);
+  return {};
 }
 
 /// Why no files could be made in the directory, or why it could not be made. Touches nothing.
@@ -119,6 +137,8 @@ struct OutputDirectory::State {
   std::string path;
   Origin origin;
   bool is_open = false;
+  Survives survives = Survives::end_of_program;  ///< of the list, where this is no subdirectory
+  std::vector<std::string> made;                 ///< directories that were made for this one, itself included
   DirectoryMarker marker;
   DirectoryLock lock;
   std::shared_ptr<State> above;  ///< of a subdirectory, whose lock it is
@@ -133,6 +153,7 @@ struct OutputDirectory::State {
 
   /// Reads the marker. Returns why the directory cannot be had for names to come.
   std::optional<std::string> examine(const std::vector<std::string>& names, bool keep) {
+    if (auto reason = not_for_results(path)) return reason;
     if (auto reason = not_writable(path)) return reason;
     std::optional<std::string> reason;
     const auto found = read_marker(path, reason);
@@ -152,8 +173,11 @@ struct OutputDirectory::State {
     if (marker.lists(name)) return {};
     if (auto reason = foreign_among(path, marker, {name})) return reason;
     marker.names.push_back(name);
-    return write_marker(path, marker);
+    return write_marker(path, marker, survival());
   }
+
+  /// Of the list, from now on.
+  Survives survival() const { return above ? above->survival() : survives; }
 
   void require(const std::string& name) const {
     if (!is_open) throw std::logic_error("nothing may be made in " + path + " before it is taken");
@@ -176,7 +200,7 @@ void OutputDirectory::start(const std::vector<std::string>& names, bool has_to_e
     if (has_to_exist && !std::filesystem::exists(file(marker_name)))
       return fmt::format("it holds no results to go on with ({} is missing)", marker_name);
     if (auto reason = self.examine(names, false)) return reason;
-    if (auto reason = make_directory(self.path)) return reason;
+    if (auto reason = make_directory(self.path, self.made)) return reason;
     if (auto reason = self.lock.take(self.path)) return reason;
     // Another process may have come and gone since.
     if (auto reason = self.examine(names, false)) return reason;
@@ -186,9 +210,10 @@ void OutputDirectory::start(const std::vector<std::string>& names, bool has_to_e
       if (auto reason = busy_below(self.path, self.marker.names)) return reason;
       if (auto reason = remove_listed(self.path, self.marker.names)) return reason;
     }
+    if (has_to_exist) self.survives = Survives::loss_of_power;
     if (!self.origin.kind.empty()) self.marker.holds = self.origin.kind;
     if (!self.origin.source.empty()) self.marker.source = source_below(self.path, self.origin.source);
-    return write_marker(self.path, self.marker);
+    return write_marker(self.path, self.marker, self.survival());
   });
   self.is_open = true;
 }
@@ -211,12 +236,12 @@ OutputDirectory OutputDirectory::subdirectory(const std::string& name) {
   const auto below = std::make_shared<State>();
   below->comm = state_->comm, below->path = file(name), below->is_open = true, below->above = state_;
   below->on_first_rank("cannot make the directory", [&]() -> std::optional<std::string> {
-    if (auto reason = make_directory(below->path)) return reason;
+    if (auto reason = make_directory(below->path, below->made)) return reason;
     std::optional<std::string> reason;
     const auto found = read_marker(below->path, reason);
     if (reason) return reason;
     below->marker = found.value_or(DirectoryMarker{});
-    return found ? std::nullopt : write_marker(below->path, below->marker);
+    return found ? std::nullopt : write_marker(below->path, below->marker, below->survival());
   });
   return OutputDirectory(below);
 }
@@ -233,7 +258,7 @@ void OutputDirectory::remove(const std::string& name) {
     if (auto reason = busy_below(self.path, one)) return reason;
     if (auto reason = remove_listed(self.path, one)) return reason;
     if (one.empty()) all.erase(listed);
-    return write_marker(self.path, self.marker);
+    return write_marker(self.path, self.marker, self.survival());
   });
 }
 
@@ -243,7 +268,20 @@ void OutputDirectory::strike_missing() {
     std::vector<std::string>& all = self.marker.names;
     const auto is_missing = [&](const std::string& name) { return !is_made(self.path, name); };
     all.erase(std::remove_if(all.begin(), all.end(), is_missing), all.end());
-    return write_marker(self.path, self.marker);
+    return write_marker(self.path, self.marker, self.survival());
+  });
+}
+
+void OutputDirectory::sync() {
+  state_->on_first_rank("cannot write to the disk", [&]() -> std::optional<std::string> {
+    State* top = state_.get();
+    while (top->above) top = top->above.get();
+    top->survives = Survives::loss_of_power;
+    if (auto reason = sync_listed(top->path, top->marker)) return reason;
+    for (const std::string& made : top->made)
+      if (auto reason = sync_directory(std::filesystem::path(made).parent_path().string())) return reason;
+    top->made.clear();
+    return {};
   });
 }
 

@@ -14,9 +14,12 @@ namespace mortise {
 /// Collective: if any rank holds a reason, every rank throws FileError "<what> <path>: <reason>" with the reason of the lowest such rank.
 void throw_if_any_file_error(const Communicator& comm, const std::string& what, const std::string& path, const std::optional<std::string>& reason);
 
+/// Survival of what is written: of the end of the program, which the operating system grants, or of a loss of power as well.
+enum class Survives { end_of_program, loss_of_power };
+
 /// Writes `content` to `path` by way of a temporary file beside it that is renamed, so that no reader ever sees half a file. No communication.
 /// Returns why it could not.
-std::optional<std::string> replace_file(const std::string& path, const std::string& content);
+std::optional<std::string> replace_file(const std::string& path, const std::string& content, Survives survives = Survives::end_of_program);
 
 /// Replaces what stands from byte `offset` of `path` to its end by `content`, in one write. If that fails, the file has its former end again. No
 /// communication. Returns why it could not.

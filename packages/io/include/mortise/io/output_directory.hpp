@@ -61,6 +61,10 @@ class OutputDirectory {
   /// Strikes from the list what was registered and has not been made: it may become another's.
   void strike_missing();
 
+  /// Returns when lists of the directory, of those that it is a subdirectory of and of their subdirectories are on the disk, with the directories that
+  /// were made for them. From then on a list is so after each change: results that are brought to the disk are found after a loss of power.
+  void sync();
+
   /// True if it has been taken, by begin_run(), continue_run() or open().
   bool is_open() const;
 

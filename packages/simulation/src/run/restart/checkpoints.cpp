@@ -68,6 +68,7 @@ std::uintmax_t Checkpoints::write(int step, const std::function<void(StateArchiv
   CheckpointWriter file(comm_, files.file(checkpoint_name(step)));
   store(file);
   const std::uintmax_t bytes = file.finish();
+  files.sync();
   last_ = step;
 
   std::vector<int> steps = checkpoint_steps(*comm_, files.path());
