@@ -25,6 +25,7 @@ class IterativeSolver : public LinearSolver {
   int symbolic_setups() const override { return setups_; }
 
   void set_matrix(const RCP<const Matrix>& matrix, bool, const MultigridInput& multigrid) override {
+    if (multigrid.alone != multigrid_.alone) drop_hierarchy();
     matrix_ = matrix;
     multigrid_ = multigrid;
     fields_ = multigrid.fields ? std::optional(multigrid.fields()) : std::nullopt;

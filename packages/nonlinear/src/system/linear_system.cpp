@@ -57,6 +57,7 @@ LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const Eva
   };
   if (!held.empty()) hold(held);
   if (at->context.field) hold(dofs_of_other_fields(model, *at->context.field));
+  system.multigrid.alone = at->context.field;
   if (model.parts().near_null_space) system.multigrid.near_null_space = [&model, d = at->d] { return model.parts().near_null_space(*d); };
   if (model.sizes().fields() > 1) system.multigrid.fields = [&model] { return model.field_rows(); };
   system.recover = [](const Vector& u, Vector& dd, Vector&) { Tpetra::deep_copy(dd, u); };

@@ -38,6 +38,7 @@ struct MultigridInput {
   std::function<NearNullSpace()> near_null_space;  ///< rigid body modes and coordinates, of displacements
   std::function<Decoupling()> decoupling;          ///< of a condensed system with contact
   std::function<FieldsOfRows()> fields = {};       ///< empty: the matrix has one
+  std::optional<std::size_t> alone = {};           ///< the field that is solved for while unknowns of the others are held; none: all are
 };
 
 /// A way to solve linear systems of equations. Collective in all its members.

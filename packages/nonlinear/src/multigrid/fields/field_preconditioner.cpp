@@ -13,6 +13,23 @@ namespace {
 /// more.
 constexpr double weakest_coupling = 0.02;
 
+/// The inverse of a block of held unknowns, which is a diagonal.
+class InverseOfDiagonal : public Operator {
+ public:
+  explicit InverseOfDiagonal(const Matrix& matrix) : inverse_(matrix.getRowMap()) {
+    matrix.getLocalDiagCopy(inverse_);
+    inverse_.reciprocal(inverse_);
+  }
+  RCP<const Map> getDomainMap() const override { return inverse_.getMap(); }
+  RCP<const Map> getRangeMap() const override { return inverse_.getMap(); }
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const override {
+    y.elementWiseMultiply(alpha, inverse_, x, beta);
+  }
+
+ private:
+  Vector inverse_;
+};
+
 }  // namespace
 
 EquationsOfFields::EquationsOfFields(const RCP<const Matrix>& matrix, const MultigridInput& multigrid, const FieldsOfRows* fields)
@@ -26,12 +43,17 @@ EquationsOfFields::EquationsOfFields(const RCP<const Matrix>& matrix, const Mult
   }
   blocks_ = std::make_shared<const FieldBlocks>(*matrix, *fields);
   for (std::size_t field = 0; field < blocks_->fields(); ++field) fields_.push_back({blocks_->block(field, field), nullptr, {}});
+  if (multigrid.alone) {
+    for (std::size_t field = 0; field < fields_.size(); ++field) fields_[field].is_held = field != *multigrid.alone;
+    if (*multigrid.alone != 0) return;  // temperatures by themselves: contact keeps its multipliers
+  }
   if (multigrid.decoupling) {
     const FieldPart& first = blocks_->part(0);
     const Decoupling of_first = part_of(multigrid.decoupling(), first);
     fields_[0].decoupled = decoupled(fields_[0].matrix, of_first);
     for (std::size_t field = 1; field < fields_.size(); ++field)
-      fields_[field].decoupled = decoupled(fields_[field].matrix, scalar_decoupling(*fields_[field].matrix, blocks_->part(field), first, of_first));
+      if (!fields_[field].is_held)
+        fields_[field].decoupled = decoupled(fields_[field].matrix, scalar_decoupling(*fields_[field].matrix, blocks_->part(field), first, of_first));
   }
   if (multigrid.near_null_space)
     fields_[0].near_null_space = [of_all = multigrid.near_null_space, blocks = blocks_] { return part_of(of_all(), blocks->part(0)); };
@@ -40,7 +62,11 @@ EquationsOfFields::EquationsOfFields(const RCP<const Matrix>& matrix, const Mult
 std::vector<MultigridHierarchy> EquationsOfFields::hierarchies(const Teuchos::ParameterList& given, Smoother smoother) const {
   std::vector<MultigridHierarchy> result;
   for (std::size_t field = 0; field < fields_.size(); ++field) {
-    const auto& [matrix, decoupled, near_null_space] = fields_[field];
+    const auto& [matrix, decoupled, near_null_space, is_held] = fields_[field];
+    if (is_held) {
+      result.push_back({rcp(new InverseOfDiagonal(*matrix)), Teuchos::null});
+      continue;
+    }
     const NearNullSpace modes = near_null_space ? near_null_space() : NearNullSpace{};
     result.push_back(make_hierarchy(matrix, decoupled.get(), modes, given, smoother, field == 0 ? 0.0 : weakest_coupling));
   }

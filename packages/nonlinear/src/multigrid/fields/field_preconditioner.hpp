@@ -29,6 +29,7 @@ class EquationsOfFields {
     RCP<const Matrix> matrix;
     std::shared_ptr<const DecoupledSystem> decoupled;  ///< null: without contact
     std::function<NearNullSpace()> near_null_space;    ///< empty: of one unknown at a node
+    bool is_held = false;                              ///< its unknowns keep their values: the matrix is a diagonal
   };
   RCP<const Map> rows_;
   std::shared_ptr<const FieldBlocks> blocks_;  ///< null: there is one field

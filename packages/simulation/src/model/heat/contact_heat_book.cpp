@@ -131,9 +131,14 @@ std::vector<ThermalPair> thermal_pairs(const MeshedScene& meshed, const Scene& s
       if (const auto fault = thermal.conductance->fault()) refuse(fmt::format("conductance of pair \"{}\": {}", pair.name, *fault));
     if (thermal.gap)
       if (const auto fault = thermal.gap->fault()) refuse(fmt::format("gap conductance of pair \"{}\": {}", pair.name, *fault));
-    if (thermal.conductance && thermal.gap && !thermal.conductance->fault() && !thermal.gap->fault()) {
+    if (const auto* function = dynamic_cast<const ConductanceFunction*>(thermal.conductance.get());
+        function != nullptr && function->conductance.depends_on(2) && !rubs)
+      refuse(
+          fmt::format("the conductance of pair \"{}\" depends on `slip_rate`, and a pair without friction has no slip; please give it a \"friction\"",
+                      pair.name));
+    if (thermal.gap && !(thermal.conductance && thermal.conductance->fault()) && !thermal.gap->fault()) {
       const double start = value_or_nan(*scene.heat.initial_temperature, {0.0, 0.0, 0.0});
-      const double closed = thermal.conductance->at({0.0, start, 0.0, 1.0}).value, open = thermal.gap->at(0.0).value;
+      const double closed = thermal.conductance ? thermal.conductance->at({0.0, start, 0.0, 1.0}).value : 0.0, open = thermal.gap->at(0.0).value;
       if (std::abs(closed - open) > 0.01 * std::max(std::abs(closed), std::abs(open)))
         refuse(fmt::format(
             "the laws of pair \"{}\" do not meet: the conductance is {:g} without pressure, and {:g} without a gap; they may differ by 1 %",

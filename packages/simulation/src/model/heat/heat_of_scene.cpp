@@ -81,10 +81,30 @@ void refuse_without_temperature(const Scene& scene) {
 
 }  // namespace
 
+/// Radiation goes with the fourth power of an absolute temperature.
+void refuse_below_zero(const Scene& scene) {
+  const bool radiates = std::any_of(scene.heat.loads.begin(), scene.heat.loads.end(),
+                                    [](const auto& load) { return dynamic_cast<const RadiationOptions*>(load.value.load.options.get()) != nullptr; });
+  if (!radiates) return;
+  const auto refuse = [](const ScalarFunction& function, const std::string& what) {
+    if (const double value = value_or_nan(function, {0.0, 0.0, 0.0, 0.0}); value <= 0.0)
+      throw InputError(function.place(), fmt::format("{} is {:g} in a scene with radiation, which needs absolute temperatures; allowed: > 0. Please "
+                                                     "give all temperatures in kelvin",
+                                                     what, value));
+  };
+  for (const auto& load : scene.heat.loads)
+    if (const auto* radiation = dynamic_cast<const RadiationOptions*>(load.value.load.options.get()))
+      refuse(radiation->surroundings, "the temperature of surroundings");
+  for (const auto& prescribed : scene.heat.temperatures)
+    refuse(prescribed.value.temperature, fmt::format("the prescribed temperature \"{}\"", prescribed.name));
+  if (scene.heat.initial_temperature->is_constant()) refuse(*scene.heat.initial_temperature, "the \"initial temperature\"");
+}
+
 HeatOfModel add_heat(const MeshedScene& meshed, const Scene& scene, const Timers& timers, SystemParts& parts) {
   HeatOfModel heat;
   if (!scene.heat.acts()) return heat;
   refuse_without_temperature(scene);
+  refuse_below_zero(scene);
   std::vector<ThermalBody> blocks;
   for (const Block& block : meshed.mesh->blocks) blocks.push_back(thermal_body(scene, *meshed.mesh, block));
   heat.bodies = std::make_shared<const ThermalBodies>(meshed.space, scene.kinematics, scene.thickness, std::move(blocks));

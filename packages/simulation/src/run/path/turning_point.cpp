@@ -88,7 +88,7 @@ bool path_turns_back(const Way& way, const Vector& converged) {
 }  // namespace
 
 std::string explain_turning_point(const FailedTry& failed, const Model& model, const SemiSmoothSystem& system) {
-  if (!failed.linearised) return {};
+  if (!failed.linearised || system.parts().fields.size() > 1) return {};  // with heat a path has rates, and no way back
   const Vector& converged = *failed.from.x;
   bool turns = false, loads = false;
   try {

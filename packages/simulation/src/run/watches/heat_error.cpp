@@ -8,14 +8,23 @@
 #include <cmath>
 #include <limits>
 
+#include "mortise/core/guarded_value.hpp"
 #include "mortise/core/over_ranks.hpp"
+#include "mortise/thermal/thermal_loads.hpp"
 
 namespace mortise {
 
-HeatErrorGuard::HeatErrorGuard(const Model& model, const HeatOptions& heat)
+namespace {
+
+/// The least range, over the largest temperature: heat that flows in or is made has no temperature of its own, and no range is there at the start.
+constexpr double least_range = 0.01;
+
+}  // namespace
+
+HeatErrorGuard::HeatErrorGuard(const Model& model, const Scene& scene)
     : model_(model),
-      tolerance_(*heat.error_tolerance),
-      order_(heat.integration == HeatOptions::Integration::trapezoidal ? 2 : 1),
+      tolerance_(*scene.heat.error_tolerance),
+      order_(scene.heat.integration == HeatOptions::Integration::trapezoidal && !model.heat().contact ? 2 : 1),
       lowest_(std::numeric_limits<double>::infinity()),
       highest_(-lowest_) {
   const FieldRows& rows = model.space().rows(model.heat().bodies->temperature());
@@ -24,6 +33,21 @@ HeatErrorGuard::HeatErrorGuard(const Model& model, const HeatOptions& heat)
     if (!rows.lives(node)) continue;
     rows_.push_back(rows(node, 0));
     is_free_.push_back(std::binary_search(prescribed.begin(), prescribed.end(), rows(node, 0)) ? 0 : 1);
+  }
+  const auto see = [&](double value) {
+    if (std::isfinite(value)) lowest_ = std::min(lowest_, value), highest_ = std::max(highest_, value);
+  };
+  std::optional<StepFailure> failure;  // said when the step is tried
+  for (const double time : {0.0, scene.stepping.end_time}) {
+    for (const double value : model.heat().prescribed->values(time, failure)) see(value);
+    for (const auto& load : scene.heat.loads) {
+      const ThermalLoadOptions* options = load.value.load.options.get();
+      if (const auto* convection = dynamic_cast<const ConvectionOptions*>(options))
+        see(value_or_nan(convection->surroundings, {time, 0.0, 0.0, 0.0}));
+      if (const auto* radiation = dynamic_cast<const RadiationOptions*>(options)) see(value_or_nan(radiation->surroundings, {time, 0.0, 0.0, 0.0}));
+    }
+    for (const auto& body : scene.bodies)
+      if (body.value.temperature) see(value_or_nan(*body.value.temperature, {time, 0.0, 0.0, 0.0}));
   }
 }
 
@@ -66,7 +90,8 @@ RCP<Vector> HeatErrorGuard::verify(const SemiSmoothSystem& system, const Accepte
   found_.rate->update(1.0 / found_.length, *now, -1.0 / found_.length, *before, 0.0);
   double lowest = lowest_, highest = highest_;
   range(*before, lowest, highest);
-  const double size = range(*now, lowest, highest);
+  double size = range(*now, lowest, highest);
+  size = std::max(size, least_range * std::max({1.0, std::abs(lowest), std::abs(highest)}));
   const Step at_rest{found_.length, rcp(new Vector(now->getMap()))};
   const bool has_two = order_ == 2 && steps_.size() == 2;
   const double e = error(found_, steps_.empty() ? at_rest : steps_[0], has_two ? &steps_[1] : nullptr);
@@ -74,7 +99,7 @@ RCP<Vector> HeatErrorGuard::verify(const SemiSmoothSystem& system, const Accepte
   if (e > tolerance_ * size)
     throw StepFailure(FailureKind::step_error,
                       fmt::format("the local error of the temperature is {:.3g}, {:.3g} of the range of temperatures; allowed is an \"error "
-                                  "tolerance\" of {:.3g}",
+                                  "tolerance\" of {:.3g}; where the first step fails, please begin with a smaller \"step\"",
                                   e, e / size, tolerance_));
   return Teuchos::null;
 }

@@ -83,10 +83,10 @@ void HeatWatch::look_for_undershoot(const SemiSmoothSystem& system, const System
   std::array<double, 3> x{};
   if (mesh.comm->getRank() == rank) x = mesh.coordinates[static_cast<std::size_t>(where)];
   x = {sum_over_ranks(*mesh.comm, x[0]), sum_over_ranks(*mesh.comm, x[1]), sum_over_ranks(*mesh.comm, x[2])};
-  warn_(
-      fmt::format("  the temperature {:.6g} at ({:.6g}, {:.6g}, {:.6g}) is below {:.6g}, the lowest of the start and of all that is prescribed: "
-                  "steps are too short for the mesh, or elements too large; please take a \"lumped capacity\", longer steps, or a finer mesh there",
-                  least_of_all, x[0], x[1], x[2], lowest_));
+  warn_(fmt::format(
+      "  the temperature {:.6g} at ({:.6g}, {:.6g}, {:.6g}) is {:.2g} below {:.6g}, the lowest of the start and of all that is prescribed: "
+      "steps are too short for the mesh, or elements too large; please take a \"lumped capacity\", longer steps, or a finer mesh there",
+      least_of_all, x[0], x[1], x[2], lowest_ - least_of_all, lowest_));
 }
 
 FailureExplanation HeatWatch::explain(const SemiSmoothSystem& system, const FailedTry& failed) {
@@ -150,8 +150,12 @@ void HeatWatch::serialize(StateArchive& archive) {
   mortise::serialize(archive, "heat_watch.worst", worst_);
   mortise::serialize(archive, "heat_watch.time_of_worst", time_of_worst_);
   mortise::serialize(archive, "heat_watch.last_time", last_time_);
-  mortise::serialize(archive, "heat_watch.lowest", lowest_);
-  mortise::serialize(archive, "heat_watch.highest", highest_);
+  // Where not all causes are known there is no lowest temperature, nor a number for a file.
+  const bool is_known = std::isfinite(lowest_) && std::isfinite(highest_);
+  double lowest = is_known ? lowest_ : 0.0, highest = is_known ? highest_ : 0.0;
+  mortise::serialize(archive, "heat_watch.lowest", lowest);
+  mortise::serialize(archive, "heat_watch.highest", highest);
+  if (is_known) lowest_ = lowest, highest_ = highest;
   mortise::serialize(archive, "heat_watch.time_undetermined", time_undetermined_);
   int is_said = is_said_ ? 1 : 0;
   mortise::serialize(archive, "heat_watch.is_said", is_said);

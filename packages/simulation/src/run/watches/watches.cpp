@@ -14,7 +14,7 @@ StepGuards watches(const Model& model, const Scene& scene, const std::function<v
   if (model.contact()) guards.push_back(std::make_shared<SurfaceWatch>(model, scene, warn));
   if (model.contact()) guards.push_back(std::make_shared<CoarseSlaveWatch>(model, scene, warn));
   if (model.edges() != nullptr) guards.push_back(std::make_shared<CoarseCrossingWatch>(model, scene, warn));
-  if (scene.heat.error_tolerance) guards.push_back(std::make_shared<HeatErrorGuard>(model, scene.heat));
+  if (scene.heat.error_tolerance) guards.push_back(std::make_shared<HeatErrorGuard>(model, scene));
   if (model.heat().bodies) guards.push_back(std::make_shared<HeatWatch>(model, scene, warn));
   return guards;
 }
