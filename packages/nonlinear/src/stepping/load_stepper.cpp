@@ -182,12 +182,20 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
   return {std::move(predicted), true};
 }
 
+/// Newton steps that say how hard a step was: all of them, and of fields in turn those of the hardest solve, or the number of solves for each field.
+int hardness(const NewtonReport& report, const NewtonOptions& newton, std::size_t fields) {
+  if (newton.fields == FieldSolution::monolithic || fields < 2) return report.newton_steps();
+  int hardest = report.solves / static_cast<int>(fields);
+  for (const NewtonIteration& iteration : report.iterations) hardest = std::max(hardest, iteration.iteration);
+  return hardest;
+}
+
 /// Length of the next step over that of the last one. Without tolerances a step of time only grows back to the first one.
 double growth_of_step(const SemiSmoothSystem& system, const SteppingOptions& stepping, const StepperObserver& observer, const StepReport& report,
-                      double next_step) {
+                      const NewtonOptions& newton, double next_step) {
   if (observer.growth)
     if (const std::optional<double> growth = observer.growth()) return *growth;
-  const bool easy = report.newton.newton_steps() <= stepping.easy_iterations;
+  const bool easy = hardness(report.newton, newton, system.parts().fields.size()) <= stepping.easy_iterations;
   return easy && (!system.parts().time || next_step < stepping.step) ? 2.0 : 1.0;
 }
 
@@ -273,7 +281,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
     }
     last_failure.reset();
     AcceptedState next = system.commit(*solution);
-    const double growth = growth_of_step(system, stepping, observer, report, schedule.next_step());
+    const double growth = growth_of_step(system, stepping, observer, report, newton, schedule.next_step());
     if (stepping.predictor == Predictor::linear && !system.parts().time) {
       const auto rate = rcp(new Vector(system.map()));
       rate->update(1.0 / report.dt, *next.x, -1.0 / report.dt, *state.x, 0.0);
