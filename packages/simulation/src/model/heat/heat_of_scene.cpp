@@ -81,23 +81,25 @@ void refuse_without_temperature(const Scene& scene) {
 
 }  // namespace
 
-/// Radiation goes with the fourth power of an absolute temperature.
+/// Temperatures that cannot be absolute ones, which radiation needs.
 void refuse_below_zero(const Scene& scene) {
-  const bool radiates = std::any_of(scene.heat.loads.begin(), scene.heat.loads.end(),
-                                    [](const auto& load) { return dynamic_cast<const RadiationOptions*>(load.value.load.options.get()) != nullptr; });
-  if (!radiates) return;
-  const auto refuse = [](const ScalarFunction& function, const std::string& what) {
-    if (const double value = value_or_nan(function, {0.0, 0.0, 0.0, 0.0}); value <= 0.0)
-      throw InputError(function.place(), fmt::format("{} is {:g} in a scene with radiation, which needs absolute temperatures; allowed: > 0. Please "
-                                                     "give all temperatures in kelvin",
-                                                     what, value));
+  const auto refuse = [](const ScalarFunction& function, const std::string& what, bool may_be_zero) {
+    const double value = value_or_nan(function, {0.0, 0.0, 0.0, 0.0});
+    if (!(value < 0.0 || (value == 0.0 && !may_be_zero))) return;
+    throw InputError(function.place(), fmt::format("{} is {:g} in a scene with a load that needs absolute temperatures; allowed: {}. Please give all "
+                                                   "temperatures in kelvin",
+                                                   what, value, may_be_zero ? ">= 0" : "> 0"));
   };
+  const bool is_absolute = std::any_of(scene.heat.loads.begin(), scene.heat.loads.end(), [](const auto& load) {
+    return load.value.load.options && load.value.load.options->needs_absolute_temperatures();
+  });
+  if (!is_absolute) return;
   for (const auto& load : scene.heat.loads)
-    if (const auto* radiation = dynamic_cast<const RadiationOptions*>(load.value.load.options.get()))
-      refuse(radiation->surroundings, "the temperature of surroundings");
+    if (const ScalarFunction* surroundings = load.value.load.options ? load.value.load.options->surroundings_temperature() : nullptr)
+      refuse(*surroundings, fmt::format("the temperature of surroundings of \"{}\"", load.name), true);
   for (const auto& prescribed : scene.heat.temperatures)
-    refuse(prescribed.value.temperature, fmt::format("the prescribed temperature \"{}\"", prescribed.name));
-  if (scene.heat.initial_temperature->is_constant()) refuse(*scene.heat.initial_temperature, "the \"initial temperature\"");
+    refuse(prescribed.value.temperature, fmt::format("the prescribed temperature \"{}\"", prescribed.name), false);
+  if (scene.heat.initial_temperature->is_constant()) refuse(*scene.heat.initial_temperature, "the \"initial temperature\"", false);
 }
 
 HeatOfModel add_heat(const MeshedScene& meshed, const Scene& scene, const Timers& timers, SystemParts& parts) {

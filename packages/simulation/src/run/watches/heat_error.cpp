@@ -40,12 +40,9 @@ HeatErrorGuard::HeatErrorGuard(const Model& model, const Scene& scene)
   std::optional<StepFailure> failure;  // said when the step is tried
   for (const double time : {0.0, scene.stepping.end_time}) {
     for (const double value : model.heat().prescribed->values(time, failure)) see(value);
-    for (const auto& load : scene.heat.loads) {
-      const ThermalLoadOptions* options = load.value.load.options.get();
-      if (const auto* convection = dynamic_cast<const ConvectionOptions*>(options))
-        see(value_or_nan(convection->surroundings, {time, 0.0, 0.0, 0.0}));
-      if (const auto* radiation = dynamic_cast<const RadiationOptions*>(options)) see(value_or_nan(radiation->surroundings, {time, 0.0, 0.0, 0.0}));
-    }
+    for (const auto& load : scene.heat.loads)
+      if (const ThermalLoadOptions* options = load.value.load.options.get())
+        if (const ScalarFunction* surroundings = options->surroundings_temperature()) see(value_or_nan(*surroundings, {time, 0.0, 0.0, 0.0}));
     for (const auto& body : scene.bodies)
       if (body.value.temperature) see(value_or_nan(*body.value.temperature, {time, 0.0, 0.0, 0.0}));
   }

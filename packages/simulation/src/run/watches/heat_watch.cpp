@@ -44,10 +44,8 @@ HeatWatch::HeatWatch(const Model& model, const Scene& scene, std::function<void(
   };
   for (const auto& load : scene.heat.loads) {
     const ThermalLoadOptions* options = load.value.load.options.get();
-    if (const auto* convection = dynamic_cast<const ConvectionOptions*>(options))
-      see(convection->surroundings, 0.0);
-    else if (const auto* radiation = dynamic_cast<const RadiationOptions*>(options))
-      see(radiation->surroundings, 0.0);
+    if (const ScalarFunction* surroundings = options != nullptr ? options->surroundings_temperature() : nullptr)
+      see(*surroundings, 0.0);
     else
       is_known = false;
   }

@@ -19,6 +19,10 @@ struct ThermalLoadOptions : Described {
   virtual std::shared_ptr<Contribution> make(const std::shared_ptr<const ThermalBodies>& bodies) const = 0;
   /// True if the heat depends on the temperature of the surface, as that to surroundings does: it determines the temperature of a steady body.
   virtual bool determines_temperature() const = 0;
+  /// Temperature of t, x, y, z that the surface would take by this load alone; null: it has none.
+  virtual const ScalarFunction* surroundings_temperature() const { return nullptr; }
+  /// True if it goes with the size of temperatures, and not with their differences.
+  virtual bool needs_absolute_temperatures() const { return false; }
 };
 
 /// q as it is given.
@@ -36,6 +40,7 @@ struct ConvectionOptions : ThermalLoadOptions {
   void describe(Parameters& parameters) override;
   std::shared_ptr<Contribution> make(const std::shared_ptr<const ThermalBodies>& bodies) const override;
   bool determines_temperature() const override;
+  const ScalarFunction* surroundings_temperature() const override { return &surroundings; }
 };
 
 /// q = e s (theta_s^4 - theta^4), with absolute temperatures: theta <= 0 or theta_s < 0 is a failure (kind input).
@@ -46,6 +51,8 @@ struct RadiationOptions : ThermalLoadOptions {
   void describe(Parameters& parameters) override;
   std::shared_ptr<Contribution> make(const std::shared_ptr<const ThermalBodies>& bodies) const override;
   bool determines_temperature() const override { return true; }
+  const ScalarFunction* surroundings_temperature() const override { return &surroundings; }
+  bool needs_absolute_temperatures() const override { return true; }
 };
 
 /// All kinds by name: "heat flux", "convection", "radiation".
