@@ -23,8 +23,7 @@ std::string StaticReasons::reason(const SemiSmoothSystem& system, const FailedTr
 }
 
 FailureExplanation StaticReasons::explain(const SemiSmoothSystem& system, const FailedTry& failed) {
-  const FailureKind kind = failed.failure.kind();
-  if (kind == FailureKind::input || kind == FailureKind::out_of_memory || kind == FailureKind::linear_solver) return {};
+  if (failed.failure.kind() == FailureKind::input || failed.failure.kind() == FailureKind::out_of_memory) return {};
   const StaticsReason statics = check_ ? explain_statics(model_, system, *failed.from.x, failed.context) : StaticsReason{};
   if (const std::string words = reason(system, failed, statics); !words.empty()) return {known_ = words};
   if (!known_.empty()) return {known_ + "; so an earlier try of this step"};
