@@ -81,12 +81,13 @@ void ConductanceFunction::describe(Parameters& parameters) {
                      .required());
 }
 
-// Central differences are exact to about 1e-10, which no Newton step notices. An argument of 0 has no size to tell a step by: its slope counts as 0.
 namespace {
-/// Step of a difference at an argument of 0, which has no size.
+/// Step of a difference at an argument of 0, which has no size to tell a step by, in the unit of the argument.
 constexpr double from_zero = 1e-5;
 }  // namespace
 
+// Central differences are exact to about 1e-10, which no Newton step notices. At an argument of 0 they are those of a step that may be too large or
+// too small for the law; a pressure of 0 is that of a node which has just closed, and of the first iterate alone.
 Conductance ConductanceFunction::at(const TouchingPoint& point) const {
   const std::array<double, 3> at = {point.pressure, point.temperature, point.slip_rate};
   const auto value_at = [&](std::size_t changed, double by) {

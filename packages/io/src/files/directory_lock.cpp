@@ -21,8 +21,10 @@
 namespace mortise {
 namespace {
 
+/// Seconds in which a file without a text may get one.
+constexpr std::time_t being_filled = 10;
+
 /// A process that only asks whether a lock is held holds it for an instant; a process that was killed takes a while to end.
-constexpr std::time_t being_filled = 10;  ///< seconds in which a file without a text may get one, where it cannot come into being with it
 constexpr auto patience = std::chrono::milliseconds(500), pause_between_tries = std::chrono::milliseconds(20);
 
 /// The process that holds the lock, as its file describes it.
@@ -120,6 +122,20 @@ std::optional<std::string> held_at(const std::string& path, bool& is_pending) {
   return held_by_name(holder, path);
 }
 
+/// Makes the file of a lock from that of this process by a link, so that it comes into being with its text; without links it gets the text at once.
+/// @returns the open file, or -1 with errno: EEXIST where the lock is there
+int make_lock(const std::string& mine, int file, const std::string& path) {
+  if (link(mine.c_str(), path.c_str()) == 0) return file;
+  if (!has_no_links(errno)) return -1;
+  const int made = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (made < 0 || !write_holder(made)) return made;
+  const int reason = errno;
+  close(made);
+  unlink(path.c_str());
+  errno = reason;
+  return -1;
+}
+
 std::string lock_of(const std::string& directory) { return directory + "/" + lock_name; }
 
 }  // namespace
@@ -160,8 +176,8 @@ std::optional<std::string> DirectoryLock::take(const std::string& directory) {
   }
 }
 
-// The file comes into being with its text, by a link. One that is stale is removed by the process that holds the guard, a directory, and looks again
-// under it: nobody else makes a stale file go away, so what is removed is what was looked at.
+// A stale file is removed by the process that holds the guard, a directory. It looks at the file again before it removes it. Nobody else removes
+// stale files, so the file that is removed is the one that was looked at.
 std::optional<std::string> DirectoryLock::take_by_name(const std::string& path) {
   const std::string mine = fmt::format("{}.{}.{}", path, host_name(), getpid()), guard = path + ".guard";
   const auto deadline = std::chrono::steady_clock::now() + patience;
@@ -174,19 +190,11 @@ std::optional<std::string> DirectoryLock::take_by_name(const std::string& path) 
   };
   if (const auto reason = write_holder(file)) return give_up(fmt::format("{}: {}", mine, *reason));
   while (true) {
-    if (link(mine.c_str(), path.c_str()) == 0) break;
-    if (errno != EEXIST && has_no_links(errno)) {
-      const int made = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-      if (made >= 0) {
-        if (const auto reason = write_holder(made)) {
-          close(made);
-          return give_up(fmt::format("{}: {}", path, *reason));
-        }
-        unlink(mine.c_str());
-        close(file);
-        path_ = path, file_ = made;
-        return {};
-      }
+    if (const int lock = make_lock(mine, file, path); lock >= 0) {
+      unlink(mine.c_str());
+      if (lock != file) close(file);
+      path_ = path, file_ = lock;
+      return {};
     }
     if (errno != EEXIST) return give_up(fmt::format("{}: {}", path, std::strerror(errno)));
     const bool is_late = std::chrono::steady_clock::now() > deadline;
@@ -204,9 +212,6 @@ std::optional<std::string> DirectoryLock::take_by_name(const std::string& path) 
       std::this_thread::sleep_for(pause_between_tries);
     }
   }
-  unlink(mine.c_str());
-  path_ = path, file_ = file;
-  return {};
 }
 
 void DirectoryLock::release() {

@@ -23,8 +23,9 @@ inline double negligible_correction(const NewtonOptions& options, double length)
 /// * no step makes the merit fall, and the longest is negligible: the merit jumps there, and whether it is small enough is not asked here.
 ///
 /// Several fields have no common unit. Heat that friction sets free appears at once where contact begins to slip, however well momentum is in
-/// balance: it may not stop a step that leads motion to balance. So a step may be taken in two cases: the merit m_0 of the first field falls, which
-/// is above its tolerance, or sum_f (m_f / S_f)^2 does, with S_f the larger of the references of both iterates.
+/// balance: it may not stop a step that leads motion to balance. So a step may be taken in two cases:
+/// * the merit m_0 of the first field is above its tolerance, and falls;
+/// * sum_f (m_f / S_f)^2 falls, with S_f the larger of the references of both iterates.
 class Backtracking : public NOX::LineSearch::Generic {
  public:
   Backtracking(const NewtonOptions& options, double length) : options_(options), length_(length) {}

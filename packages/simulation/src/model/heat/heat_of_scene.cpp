@@ -81,25 +81,26 @@ void refuse_without_temperature(const Scene& scene) {
 
 }  // namespace
 
-/// Temperatures that cannot be absolute ones, which radiation needs.
+/// Constant temperatures that cannot be absolute ones, which radiation needs. Those that vary are judged where they act.
 void refuse_below_zero(const Scene& scene) {
+  const auto& loads = scene.heat.loads;
+  const bool is_absolute = std::any_of(
+      loads.begin(), loads.end(), [](const auto& load) { return load.value.load.options && load.value.load.options->needs_absolute_temperatures(); });
+  if (!is_absolute) return;
   const auto refuse = [](const ScalarFunction& function, const std::string& what, bool may_be_zero) {
-    const double value = value_or_nan(function, {0.0, 0.0, 0.0, 0.0});
-    if (!(value < 0.0 || (value == 0.0 && !may_be_zero))) return;
+    if (!function.is_constant()) return;
+    const double value = function.at({0.0, 0.0, 0.0, 0.0});
+    if (value > 0.0 || (value == 0.0 && may_be_zero)) return;
     throw InputError(function.place(), fmt::format("{} is {:g} in a scene with a load that needs absolute temperatures; allowed: {}. Please give all "
                                                    "temperatures in kelvin",
                                                    what, value, may_be_zero ? ">= 0" : "> 0"));
   };
-  const bool is_absolute = std::any_of(scene.heat.loads.begin(), scene.heat.loads.end(), [](const auto& load) {
-    return load.value.load.options && load.value.load.options->needs_absolute_temperatures();
-  });
-  if (!is_absolute) return;
-  for (const auto& load : scene.heat.loads)
+  for (const auto& load : loads)
     if (const ScalarFunction* surroundings = load.value.load.options ? load.value.load.options->surroundings_temperature() : nullptr)
       refuse(*surroundings, fmt::format("the temperature of surroundings of \"{}\"", load.name), true);
   for (const auto& prescribed : scene.heat.temperatures)
     refuse(prescribed.value.temperature, fmt::format("the prescribed temperature \"{}\"", prescribed.name), false);
-  if (scene.heat.initial_temperature->is_constant()) refuse(*scene.heat.initial_temperature, "the \"initial temperature\"", false);
+  refuse(*scene.heat.initial_temperature, "the \"initial temperature\"", false);
 }
 
 HeatOfModel add_heat(const MeshedScene& meshed, const Scene& scene, const Timers& timers, SystemParts& parts) {
@@ -184,6 +185,16 @@ double size_of_temperatures(const Scene& scene, const MeshedScene& meshed, const
     for (const double value : heat.prescribed->values(time, failure))
       if (std::isfinite(value)) size = std::max(size, std::abs(value));
   return most_over_ranks(*meshed.mesh->comm, size);
+}
+
+std::vector<const ScalarFunction*> temperatures_around(const Scene& scene) {
+  std::vector<const ScalarFunction*> around;
+  for (const auto& load : scene.heat.loads)
+    if (const ScalarFunction* surroundings = load.value.load.options ? load.value.load.options->surroundings_temperature() : nullptr)
+      around.push_back(surroundings);
+  for (const auto& body : scene.bodies)
+    if (body.value.temperature) around.push_back(&*body.value.temperature);
+  return around;
 }
 
 FurtherConstraints temperature_constraints(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat) {

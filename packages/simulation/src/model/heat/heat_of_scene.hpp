@@ -35,6 +35,9 @@ void put_initial_temperatures(const Scene& scene, const FieldSpace& space, Vecto
 /// Reference of changes of temperature: the largest one at the start or prescribed at the start or the end, at least 1. Collective.
 double size_of_temperatures(const Scene& scene, const MeshedScene& meshed, const HeatOfModel& heat);
 
+/// Temperatures of t, x, y, z that are no unknowns: those of surroundings and of rigid bodies.
+std::vector<const ScalarFunction*> temperatures_around(const Scene& scene);
+
 /// mesh.bodies indices of bodies that store no heat and whose temperature nothing determines: no prescribed one, no surroundings, no body that it
 /// conducts to. Collective.
 /// @param joined  [mesh bodies] number of the group of bodies that conduct to one another

@@ -8,12 +8,11 @@
 #include <cmath>
 #include <limits>
 
+#include "model/heat/heat_of_scene.hpp"
 #include "mortise/core/guarded_value.hpp"
 #include "mortise/core/over_ranks.hpp"
-#include "mortise/thermal/thermal_loads.hpp"
 
 namespace mortise {
-
 namespace {
 
 /// The least range, over the largest temperature: heat that flows in or is made has no temperature of its own, and no range is there at the start.
@@ -40,11 +39,10 @@ HeatErrorGuard::HeatErrorGuard(const Model& model, const Scene& scene)
   std::optional<StepFailure> failure;  // said when the step is tried
   for (const double time : {0.0, scene.stepping.end_time}) {
     for (const double value : model.heat().prescribed->values(time, failure)) see(value);
-    for (const auto& load : scene.heat.loads)
-      if (const ThermalLoadOptions* options = load.value.load.options.get())
-        if (const ScalarFunction* surroundings = options->surroundings_temperature()) see(value_or_nan(*surroundings, {time, 0.0, 0.0, 0.0}));
-    for (const auto& body : scene.bodies)
-      if (body.value.temperature) see(value_or_nan(*body.value.temperature, {time, 0.0, 0.0, 0.0}));
+    for (const ScalarFunction* around : temperatures_around(scene)) {
+      const bool is_one = !around->depends_on(1) && !around->depends_on(2) && !around->depends_on(3);  // else surfaces see other values
+      if (is_one) see(value_or_nan(*around, {time, 0.0, 0.0, 0.0}));
+    }
   }
 }
 

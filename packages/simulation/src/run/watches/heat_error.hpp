@@ -15,9 +15,9 @@ namespace mortise {
 ///     backward Euler:  e = max h^2 |theta''| / 2 = h |m_n - m_(n-1)| / 2,
 ///     trapezoidal:     e = max h^3 |theta'''| / 12,   theta''' / 2 the divided difference of m_n, m_(n-1), m_(n-2) at the middles of the steps,
 ///
-/// over nodes whose temperature is not prescribed and over the range of temperatures: all so far, those that are prescribed and those of surroundings
-/// and rigid bodies at the start and the end. It is 1 % of the largest of them or more. Heat of contact counts at the end of a step: with it the
-/// trapezoidal rule is of first order.
+/// over nodes whose temperature is not prescribed and over the range of temperatures. The range has all temperatures so far. It has those that are
+/// prescribed, and those of surroundings and rigid bodies, at the start and the end. It is 1 % of the largest of them or more. Heat of contact counts
+/// at the end of a step: with it the trapezoidal rule is of first order.
 ///
 /// next h = h clamp(0.9 (tolerance / e)^(1/(p+1)), 1/2, 2) with the order p. A step with e > tolerance is undone. The first steps of the trapezoidal
 /// rule take the error of backward Euler, which is larger.

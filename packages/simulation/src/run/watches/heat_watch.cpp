@@ -35,26 +35,20 @@ HeatWatch::HeatWatch(const Model& model, const Scene& scene, std::function<void(
   }
   for (const ThermalBody& body : model.heat().bodies->bodies())
     if (body.properties && !body.properties->specific_heat.is_given()) stores_everywhere_ = false;
-  // What takes heat away at any temperature lowers it without a bound that is known.
-  bool is_known = true;
-  const auto see = [&](const ScalarFunction& function, double time) {
-    if (!function.is_constant()) is_known = false;
-    if (const double value = function.is_constant() ? function.at({time, 0.0, 0.0, 0.0}) : 0.0; is_known)
-      lowest_ = std::min(lowest_, value), highest_ = std::max(highest_, value);
-  };
-  for (const auto& load : scene.heat.loads) {
-    const ThermalLoadOptions* options = load.value.load.options.get();
-    if (const ScalarFunction* surroundings = options != nullptr ? options->surroundings_temperature() : nullptr)
-      see(*surroundings, 0.0);
-    else
-      is_known = false;
-  }
-  if (model.heat().bodies->has_source()) is_known = false;
+  // Heat that goes away at any temperature lowers it without a bound that is known.
+  bool is_known = !model.heat().bodies->has_source();
+  for (const auto& load : scene.heat.loads)
+    is_known = is_known && load.value.load.options && load.value.load.options->surroundings_temperature() != nullptr;
   for (const auto& material : scene.materials)
     if (material.value.law.options->thermal.thermoelastic_heating) is_known = false;  // what is stretched cools
-  for (const auto& body : scene.bodies)
-    if (body.value.temperature) see(*body.value.temperature, 0.0);
-  if (!is_known) lowest_ = -std::numeric_limits<double>::infinity();
+  for (const ScalarFunction* around : temperatures_around(scene)) {
+    is_known = is_known && around->is_constant();
+    if (!is_known) break;
+    const double value = around->at({0.0, 0.0, 0.0, 0.0});
+    lowest_ = std::min(lowest_, value), highest_ = std::max(highest_, value);
+  }
+  lowest_ = is_known ? least_over_ranks(*model.mesh()->comm, lowest_) : -std::numeric_limits<double>::infinity();
+  highest_ = most_over_ranks(*model.mesh()->comm, highest_);
 }
 
 void HeatWatch::look_for_undershoot(const SemiSmoothSystem& system, const SystemEvaluation& at) {
@@ -97,11 +91,12 @@ FailureExplanation HeatWatch::explain(const SemiSmoothSystem& system, const Fail
   const SystemEvaluation evaluation = system.evaluate(*failed.linearised->x, failed.linearised->context);
   for (const ThermalPair& pair : model_.heat().contact->pairs()) {
     if (!pair.conductance || pair.gap) continue;
-    const double just_closed = pair.conductance->at({0.0, std::isfinite(highest_) ? highest_ : 0.0, 0.0, 1.0}).value;
+    const double just_closed = pair.conductance->at({0.0, highest_, 0.0, 1.0}).value;
+    if (!(just_closed > 0.0)) continue;
     const std::vector<ContactNodeState> states = node_states(evaluation.contact_laws(), pair.pair);
     const bool mine =
         std::any_of(states.begin(), states.end(), [](const ContactNodeState& node) { return node.closed ? node.pressure <= 0.0 : node.gap < 0.0; });
-    if (!(just_closed > 0.0) || most_over_ranks(*model_.mesh()->comm, mine ? 1 : 0) == 0) continue;
+    if (most_over_ranks(*model_.mesh()->comm, mine ? 1 : 0) == 0) continue;
     return {
         fmt::format("contact \"{}\": where surfaces begin to touch the conductance is {:.3g} at once, and 0 where they do not: contact that closes "
                     "cools, shrinks and opens, and no state need exist between the two; please give the pair a \"gap conductance\" that agrees "
