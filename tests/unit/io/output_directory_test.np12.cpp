@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <Tpetra_Core.hpp>
+#include <cstdlib>
 
 #include "file_error.hpp"
 #include "mortise/core/error.hpp"
@@ -50,6 +51,31 @@ TEST(OutputDirectory, IsMadeWithItsParentsWhenARunBegins) {
   EXPECT_TRUE(files::is_directory(directory.path()));
   EXPECT_EQ(directory.file("log.txt"), scratch.file("results/patch") + "/log.txt");
   EXPECT_EQ(directory.claim("log.txt"), directory.file("log.txt"));
+}
+
+TEST(OutputDirectory, IsNeitherTheRootNorTheHomeDirectory) {
+  const test::ScratchDirectory home(world());
+  const char* former = std::getenv("HOME");
+  const std::string kept = former != nullptr ? former : "";
+  setenv("HOME", home.path().c_str(), 1);
+  EXPECT_THAT(file_error([] { OutputDirectory(world(), "/"); }), HasSubstr("the root of the file system"));
+  EXPECT_THAT(file_error([&] { OutputDirectory(world(), home.path() + "/below/.."); }), HasSubstr("your home directory"));
+  EXPECT_NO_THROW(OutputDirectory(world(), home.file("results")));
+  world()->barrier();
+  setenv("HOME", kept.c_str(), 1);
+}
+
+// The list is on the disk when sync() returns, with all above and below it; a later name is added to it there.
+TEST(OutputDirectory, KeepsItsListThroughSync) {
+  const test::ScratchDirectory scratch(world());
+  OutputDirectory directory(world(), scratch.file("deep/results"));
+  directory.begin_run();
+  OutputDirectory below = directory.subdirectory("fields");
+  below.claim("mesh.h5");
+  below.sync();
+  directory.claim("late.txt");
+  EXPECT_THAT(content(directory.file(".mortise")), AllOf(HasSubstr("fields\n"), HasSubstr("late.txt\n")));
+  EXPECT_THAT(content(below.file(".mortise")), HasSubstr("mesh.h5\n"));
 }
 
 TEST(OutputDirectory, ANameIsListedBeforeItsFileIsMade) {

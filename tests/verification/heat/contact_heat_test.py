@@ -49,6 +49,32 @@ def half_spaces(runs, check):
         check(errors[-1] < 0.005 and errors[-1] <= errors[0], f"surfaces that rub, {text}: temperatures are off by " + ", ".join(f"{error:.2e}" for error in errors))
 
 
+def drags(runs, check):
+    """A drag beyond the elastic shear at once, far or little, in long and short steps, with expansion and without: heat of friction appears in the first
+    iteration that slips. The line search takes what full steps give; as both converge to 1e-9, temperatures differ by less than 1e-6."""
+    worst, failed = 0.0, []
+    cases = [(first, expansion, step) for first in (0.3, 1.5, 5, 30) for expansion in (None, 1e-5) for step in (0.02, 0.2)]
+    for first, expansion, step in cases:
+        scene, _ = rubbing(None, 1)
+        put(scene, "stepping/step", step)
+        elastic = float(scene["boundary conditions"]["drive"]["x"].split()[0])
+        put(scene, "boundary conditions/drive/x", f"{first * elastic:.6g} + 0.2*t")
+        for one in scene["materials"].values():
+            one["thermomechanics"] = {"expansion coefficient": expansion, "reference temperature": 0}
+            if expansion is None:
+                one.pop("thermomechanics")
+        found = []
+        for search in ("backtrack", "none"):
+            put(scene, "newton/line search", search)
+            code, said, values, _ = runs.run("drag", scene)
+            found.append(values.get("pad", math.nan) if code == 0 else math.nan)
+        error = abs(found[0] / found[1] - 1)
+        worst = max(worst, error)
+        if not error < 1e-6:
+            failed.append(f"{first} of the elastic shear, expansion {expansion}, steps of {step}: {found}")
+    check(not failed, f"{len(cases)} drags at once: temperatures differ from those of full steps by {worst:.1e}" + "".join("\n        " + one for one in failed))
+
+
 def brakes(runs, check):
     """Heat is torque times angle, whatever turns in a step; the arm of the force is that of an even pressure, or of even wear (a pressure as 1/r)."""
     for turn, wear in ((0.1, False), (0.02, False), (0.02, True)):
@@ -130,6 +156,7 @@ def main():
     varied_flux(runs, check, [("T3", 1e3, "upper", (1, 2)), ("Q8", 1e3, "lower", (1, 2)), ("H8", 1.0, "upper", (1, 2))])
     half_spaces(runs, check)
     rods(runs, check)
+    drags(runs, check)
     brakes(runs, check)
     moose_cases.compare(runs, check, moose_cases.CASES[:5])
     sys.exit(failures > 0)

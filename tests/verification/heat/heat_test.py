@@ -62,6 +62,49 @@ def steps_by_error(runs, check):
         check(done.returncode == 0 and abs(again - values["end"]) < 1e-9, f"restart of steps by error: exit {done.returncode}, off by {again - values['end']:.1e}")
 
 
+def bodies_of_one_temperature(runs, check):
+    """Steps by error from a uniform start, of bodies that conduct so well that they have one temperature (Biot numbers of 1e-5).
+
+    The error is below the tolerance times the number of steps, over the range, as these processes do not amplify errors."""
+    tolerance, capacity, length, start = 1e-3, 4.0, 0.1, 300.0
+    stored = capacity * length
+    cold, glow, steps_of_ode = start, 2e-11, 20000
+    for _ in range(steps_of_ode):  # stored dtheta/dt = glow (200^4 - theta^4), midpoint rule
+        half = cold + 0.5 / steps_of_ode * glow * (200 ** 4 - cold ** 4) / stored
+        cold += 1 / steps_of_ode * glow * (200 ** 4 - half ** 4) / stored
+    loads = {
+        "convection": ({"type": "convection", "coefficient": 1, "surroundings": 400}, 400 - 100 * math.exp(-1 / stored), 100),
+        "radiation": ({"type": "radiation", "emissivity": 1, "stefan-boltzmann constant": glow, "surroundings": 200}, cold, 100),
+        "flux": ({"type": "heat flux", "flux": "20*t"}, start + 10 / stored, 10 / stored),
+    }
+    for name, (load, exact, span) in loads.items():
+        for integration in ("backward euler", "trapezoidal"):
+            scene = {"kinematics": "plane strain", "materials": {"a": material(1e4, density=1.0, capacity=capacity)},
+                     "bodies": {"bar": {"material": "a", "mesh": block(length, 0.1, 2, 1)}}, "boundary conditions": {"foot": {"set": "bar/bottom", "x": 0, "y": 0}},
+                     "heat": {"analysis": "transient", "integration": integration, "initial temperature": start, "error tolerance": tolerance,
+                              "loads": {"load": {"set": "bar/right", **load}}},
+                     "stepping": {"step": 0.01, "end time": 1, "maximum step": 1, "minimum step": 1e-6}, "output": {"fields": ""},
+                     "quantities": {"end": {"type": "temperature", "x": 0.05, "y": 0.05}}}
+            code, _, values, columns = runs.run(f"uniform_{name}_{integration.split()[0]}", scene)
+            error = abs(values.get("end", math.nan) - exact) / max(span, 0.01 * exact)
+            count = len(columns["time"]) - 1 if columns else 0
+            check(code == 0 and error < tolerance * count, f"steps by error from a uniform start, {name}, {integration}: exit {code}, {count} steps, error {error:.1e}")
+    # Two bodies: the difference decays by h (1/C_1 + 1/C_2). Heat of contact is of first order, whatever the rule.
+    pair = {"kinematics": "plane strain", "materials": {"a": material(1e4, modulus=1e6, density=1.0, capacity=capacity)},
+            "bodies": {"upper": {"material": "a", "mesh": block(1, length, 2, 1, 0, 2 * length)}, "lower": {"material": "a", "mesh": block(1, 2 * length, 3, 1)}},
+            "boundary conditions": {"foot": {"set": "lower/bottom", "x": 0, "y": 0}, "press": {"set": "upper/top", "x": 0, "y": -1e-6}},
+            "contact": {"joint": {"slave": "upper/bottom", "master": "lower/top", "heat": {"conductance": {"type": "constant", "value": 1}}}},
+            "heat": {"analysis": "transient", "integration": "trapezoidal", "initial temperature": start, "error tolerance": tolerance,
+                     "initial temperatures": {"hot": {"body": "upper", "temperature": start + 100}}},
+            "stepping": {"step": 0.01, "end time": 0.5, "maximum step": 1, "minimum step": 1e-6}, "output": {"fields": ""},
+            "quantities": {"upper": {"type": "temperature", "body": "upper", "x": 0.5, "y": 3 * length}, "lower": {"type": "temperature", "body": "lower", "x": 0.5, "y": 0}}}
+    code, _, values, columns = runs.run("two_uniform", pair)
+    exact = 100 * math.exp(-0.5 * (1 / stored + 1 / (2 * stored)))
+    error = abs(values["upper"] - values["lower"] - exact) / 100 if code == 0 else math.nan
+    count = len(columns["time"]) - 1 if columns else 0
+    check(code == 0 and error < tolerance * count, f"steps by error of two bodies that touch, trapezoidal: exit {code}, {count} steps, error {error:.1e}")
+
+
 def random_scenes(runs, check, count):
     """Balance to 1e-10 whatever the scene; what flows is that with slave and master exchanged, up to the error of the mesh."""
     ran = 0
@@ -224,6 +267,18 @@ def restarts_and_ranks(runs, check):
         check(apart < 1e-9, f"{ranks} ranks: quantities differ by {apart:.1e}")
 
 
+def steps_in_turn(runs, check, inputs):
+    """Steps of fields in turn grow as those of fields together: many iterations in all are no sign of a hard step."""
+    steps = {}
+    for fields in ("monolithic", "staggered"):
+        results = os.path.join(runs.directory, "shrink_fit_" + fields)
+        subprocess.run([runs.mortise, "run", os.path.join(inputs, "heat", "shrink_fit.xml"), "-o", results, "--set", "newton/fields=" + fields], check=True,
+                       stdout=subprocess.DEVNULL, timeout=300)
+        with open(os.path.join(results, "summary.json")) as file:
+            steps[fields] = len(json.load(file)["steps"])
+    check(steps["staggered"] <= 1.5 * steps["monolithic"], f"steps of a shrink fit: {steps}")
+
+
 def options_of_contact(runs, check):
     """Perfect conductance; friction that depends on the temperature; fields solved for in turn."""
     wall = {"kinematics": "plane strain", "materials": {"a": material(15, modulus=1e9), "b": material(40, modulus=1e9)},
@@ -304,12 +359,14 @@ def main():
 
     orders(runs, check)
     steps_by_error(runs, check)
+    bodies_of_one_temperature(runs, check)
     exact_cases(runs, check)
     deformation_cases.all_of_them(runs, check)
     random_scenes(runs, check, count)
     stored_and_determined(runs, check)
     options_of_contact(runs, check)
     bad_input(runs, check)
+    steps_in_turn(runs, check, inputs)
     without_heat(runs, check, inputs)
     restarts_and_ranks(runs, check)
     sys.exit(failures > 0)

@@ -82,7 +82,8 @@ std::optional<std::string> make_directory(const std::string& directory, std::vec
 std::optional<std::string> not_for_results(const std::string& directory) {
   namespace fs = std::filesystem;
   std::error_code error;
-  const fs::path path = fs::weakly_canonical(fs::absolute(directory), error);
+  fs::path path = fs::weakly_canonical(fs::absolute(directory), error);
+  if (!path.has_filename()) path = path.parent_path();  // of "below/.." where there is no "below"
   const char* home = std::getenv("HOME");
   if (path == path.root_path()) return fmt::format("it is the root of the file system; {}", another_place);
   if (home != nullptr && *home != '\0' && path == fs::weakly_canonical(home, error))
