@@ -209,6 +209,59 @@ TEST(FileBody, OfFacetsHasOneOutside) {
   EXPECT_THAT(refused(row, wanted), HasSubstr("facets 1 and 2 have their outsides on different sides"));
 }
 
+// A set of the other face of one facet turns all that hang together with it, so that the body has its outside there.
+TEST(FileBody, OfFacetsIsTurnedWhereSetsNameItsOtherFace) {
+  MeshFile file = cube_with_tetrahedra();
+  file.cells = {{CellShape::triangle3, {1, 3, 7, 1, 7, 5}, {4, 5}}};
+  file.cell_sets.clear();
+  file.side_sets = {{"touched", {{0, 0, the_other_face}}}};
+  FileBodyRequest wanted = request(3);
+  wanted.is_surface = true;
+  const ListedBody body = make_file_body(file, wanted);
+  EXPECT_THAT(nodes_of(body, 0), ElementsAre(0, 3, 1));  // of the body's four nodes: 1, 3, 5, 7
+  EXPECT_THAT(nodes_of(body, 1), ElementsAre(0, 2, 3));
+  EXPECT_THAT(body.side_names, ElementsAre("touched"));
+  EXPECT_THAT(body.notes, ElementsAre("2 of 2 facets were turned, as sets of sides name their other face"));
+  file.side_sets.push_back({"seen", {{0, 1, the_cell_itself}}});
+  const ListedBody both = make_file_body(file, wanted);
+  EXPECT_THAT(nodes_of(both, 0), ElementsAre(0, 1, 3));
+  EXPECT_THAT(both.notes, ElementsAre(HasSubstr("sets \"seen\" and \"touched\" name both faces of a surface of body \"body\"")));
+  MeshFile row = row_of_squares();
+  row.cells = {{CellShape::line2, {0, 1, 1, 2}, {1, 2}}};
+  row.cell_sets.clear();
+  row.side_sets = {{"touched", {{0, 0, the_other_face}}}};
+  wanted.dimension = 2;
+  EXPECT_THAT(nodes_of(make_file_body(row, wanted), 1), ElementsAre(2, 1));
+}
+
+TEST(FileBody, HasTheNodesOfEdgesOfFacets) {
+  MeshFile file = cube_with_tetrahedra();
+  file.cells = {{CellShape::triangle3, {1, 3, 7, 1, 7, 5}, {4, 5}}};
+  file.cell_sets.clear();
+  file.side_sets = {{"rim", {{0, 0, 0}}}};
+  FileBodyRequest wanted = request(3);
+  wanted.is_surface = true;
+  const ListedBody body = make_file_body(file, wanted);
+  EXPECT_THAT(body.node_set_names, ElementsAre("rim"));
+  EXPECT_TRUE(body.side_names.empty());
+}
+
+TEST(FileBody, SaysThatFacesOfPlaneCellsAreLeftOut) {
+  MeshFile file = row_of_squares();
+  file.side_sets.push_back({"face", {{0, 0, the_cell_itself}}});
+  const ListedBody body = make_file_body(file, request(2));
+  EXPECT_THAT(body.notes, ::testing::Contains("set \"face\": 1 faces of shells are left out, as they lie in the plane of the model"));
+}
+
+TEST(FileBody, SaysWhyABlockIsLeftOut) {
+  MeshFile file = row_of_squares();
+  file.left_out = {{"springs", "its 3 elements are of types that are not read"}};
+  FileBodyRequest wanted = request(2);
+  EXPECT_EQ(make_file_body(file, wanted).left_out.size(), 1u);
+  wanted.blocks = {"springs"};
+  EXPECT_THAT(refused(file, wanted), HasSubstr("\"springs\" of row.msh is left out: its 3 elements are of types that are not read"));
+}
+
 TEST(FileBody, SaysWhereMeshesOnlyLieOnOneAnother) {
   MeshFile file = row_of_squares();
   EXPECT_TRUE(make_file_body(file, request(2)).warnings.empty());

@@ -114,6 +114,12 @@ const std::vector<std::string>& BodySet::node_set_names(int body) const {
   return listed == nullptr ? none : listed->body().node_set_names;
 }
 
+const std::vector<LeftOutSet>& BodySet::left_out_sets(int body) const {
+  static const std::vector<LeftOutSet> none;
+  const auto* listed = std::get_if<ListedComplex>(&bodies_[body].complex);
+  return listed == nullptr ? none : listed->body().left_out;
+}
+
 /// fetch(body, index) for each body of a mesh file.
 template <class Fetch>
 void BodySet::for_each_listed(const Fetch& fetch) const {

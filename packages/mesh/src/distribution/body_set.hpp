@@ -58,6 +58,8 @@ class BodySet {
   std::vector<int> node_sets_of_node(GlobalOrdinal node) const;
   const std::vector<std::string>& side_names(int body) const;
   const std::vector<std::string>& node_set_names(int body) const;
+  /// Sets of its mesh file that are not read.
+  const std::vector<LeftOutSet>& left_out_sets(int body) const;
 
   /// Makes nodes and surface sides of these elements (ascending) known on this rank. Collective.
   void fetch_elements(const Communicator& comm, const std::vector<GlobalOrdinal>& elements) const;

@@ -128,6 +128,7 @@ void declare_sets(Mesh& mesh, const BodySet& set, int b) {
   const std::string surface = body + "/surface";
   mesh.side_sets[surface], mesh.node_sets[surface], mesh.node_sets[body];
   for (const std::string& name : set.node_set_names(b)) mesh.node_sets[body + "/" + name];
+  for (const LeftOutSet& left_out : set.left_out_sets(b)) mesh.left_out_sets[body + "/" + left_out.name] = left_out.reason;
 }
 
 void add_side_sets(Mesh& mesh, const BodySet& set, LocalOrdinal b) {
@@ -212,7 +213,9 @@ RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<Body
   mesh->owned_nodes = share_out_nodes(comm, set, owned_elements, nodes_of(reference_points));
   fill_blocks(*mesh, set, bodies, owned_elements);
   fill_nodes(*mesh, set);
-  throw_if_any(*comm, inverted_elements(*mesh, set, bodies));
+  InvertedElements inverted = find_inverted_elements(*mesh, set, bodies);
+  throw_if_any(*comm, inverted.errors);
+  mesh->warnings = std::move(inverted.warnings);
   fill_sets(*mesh, set);
   fill_reference_points(*mesh, set, reference_points);
   return mesh;

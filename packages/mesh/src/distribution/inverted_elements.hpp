@@ -1,6 +1,7 @@
 #pragma once
 // The check of a mesh's elements.
 
+#include <string>
 #include <vector>
 
 #include "distribution/body_set.hpp"
@@ -8,7 +9,13 @@
 
 namespace mortise {
 
-/// The first inverted element of each body on this rank, with its det J.
-std::vector<Diagnostic> inverted_elements(const Mesh& mesh, const BodySet& set, const std::vector<BodyDescription>& bodies);
+/// Elements with det J <= 0.
+struct InvertedElements {
+  std::vector<Diagnostic> errors;     ///< the first of each block on this rank that cannot be integrated
+  std::vector<std::string> warnings;  ///< of blocks with elements where it is so in corners alone; the same on every rank
+};
+
+/// Looks at all elements. Collective.
+InvertedElements find_inverted_elements(const Mesh& mesh, const BodySet& set, const std::vector<BodyDescription>& bodies);
 
 }  // namespace mortise

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "mortise/core/names.hpp"
@@ -23,6 +24,8 @@ const FileSet<FileCellRange>& require_cells(const MeshFile& file, const std::str
     if (set.name == name) return set;
     known.push_back(set.name);
   }
+  for (const LeftOutSet& set : file.left_out)
+    if (set.name == name) throw InputError(place, fmt::format("\"{}\" of {} is left out: {}", name, file.path, set.reason));
   if (known.empty()) throw InputError(place, fmt::format("{} names no blocks of elements; please leave out \"{}\"", file.path, name));
   throw InputError(place, fmt::format("in {} {}", file.path, unknown_name("block", name, known)));
 }
@@ -97,9 +100,14 @@ double plane_area(const MeshFile& file, const std::int32_t* nodes, int corners) 
   return 0.5 * twice;
 }
 
-/// Corner 0 stays the first. Mid-side node corners + k lies between corners k and k + 1.
+/// Corner 0 of a plane cell stays the first. Mid-side node corners + k lies between corners k and k + 1.
 std::vector<std::int32_t> reversed(const std::int32_t* nodes, const CellTopology& cell) {
   std::vector<std::int32_t> result;
+  if (cell.dimension == 1) {
+    result.assign(nodes, nodes + cell.nodes);
+    std::swap(result[0], result[1]);
+    return result;
+  }
   for (int a = 0; a < cell.corners; ++a) result.push_back(nodes[(cell.corners - a) % cell.corners]);
   for (int k = 0; k < cell.mid_side_nodes(); ++k) result.push_back(nodes[cell.corners + cell.corners - 1 - k]);
   return result;
@@ -163,6 +171,39 @@ void keep_piece(const MeshFile& file, const FileBodyRequest& request, const Chos
         part[group][cell] = not_chosen;
 }
 
+/// A facet has one outside, that along its normal. A rigid surface may be named by its other face: then its facets are turned, with all that hang
+/// together with them.
+void turn_facets(const MeshFile& file, const FileBodyRequest& request, ChosenCells& chosen) {
+  struct Named {
+    std::string along, against;  ///< a set that names a face of a piece along its normal, or against it
+  };
+  std::map<std::int32_t, Named> pieces;  // by lowest node
+  const std::vector<std::int32_t> lowest = lowest_connected_nodes(chosen);
+  BodyElements& elements = chosen.elements;
+  const auto piece_of = [&](std::int32_t element) { return lowest[static_cast<std::size_t>(*elements.nodes_of(element))]; };
+  for (const auto& set : file.side_sets)
+    for (const FileSide& side : set.members) {
+      if (side.side >= 0) continue;
+      const std::int32_t element = chosen.elements_of_cells[static_cast<std::size_t>(side.group)][static_cast<std::size_t>(side.cell)];
+      if (element < 0) continue;
+      Named& named = pieces[piece_of(element)];
+      (side.side == the_other_face ? named.against : named.along) = set.name;
+    }
+  for (const auto& [piece, named] : pieces)
+    if (!named.against.empty() && !named.along.empty())
+      chosen.notes.push_back(fmt::format("sets \"{}\" and \"{}\" name both faces of a surface of body \"{}\"; its outside is that along the normals",
+                                         named.along, named.against, request.name));
+  std::int64_t turned = 0;
+  for (std::int32_t e = 0; e < elements.size(); ++e) {
+    const auto found = pieces.find(piece_of(e));
+    if (found == pieces.end() || found->second.against.empty() || !found->second.along.empty()) continue;
+    const auto nodes = reversed(elements.nodes_of(e), elements.cell(e));
+    std::copy(nodes.begin(), nodes.end(), elements.nodes.begin() + elements.offsets[static_cast<std::size_t>(e)]);
+    ++turned;
+  }
+  if (turned > 0) chosen.notes.push_back(fmt::format("{} of {} facets were turned, as sets of sides name their other face", turned, elements.size()));
+}
+
 }  // namespace
 
 std::vector<std::int32_t> lowest_connected_nodes(const ChosenCells& chosen) {
@@ -190,9 +231,12 @@ ChosenCells choose_cells(const MeshFile& file, const FileBodyRequest& request, i
   Membership part = choose(file, request, cell_dimension);
   const bool mends = cell_dimension == 2 && request.dimension == 2;
   ChosenCells chosen = make_elements(file, request, part, mends);
-  if (request.piece.empty() || chosen.elements.size() == 0) return chosen;
-  keep_piece(file, request, chosen, part);
-  return make_elements(file, request, part, mends);
+  if (!request.piece.empty() && chosen.elements.size() > 0) {
+    keep_piece(file, request, chosen, part);
+    chosen = make_elements(file, request, part, mends);
+  }
+  if (cell_dimension < request.dimension) turn_facets(file, request, chosen);
+  return chosen;
 }
 
 }  // namespace mortise

@@ -61,6 +61,11 @@ void put_header(Letter& letter, const ListedBody& body) {
     letter.put(part.elements);
   }
   for (const auto* texts : {&body.side_names, &body.node_set_names, &body.notes, &body.warnings}) letter.put(*texts);
+  letter.put(static_cast<long long>(body.left_out.size()));
+  for (const LeftOutSet& set : body.left_out) {
+    letter.put(set.name);
+    letter.put(set.reason);
+  }
 }
 
 ListedBody header(Letter& letter) {
@@ -74,6 +79,11 @@ ListedBody header(Letter& letter) {
     part.elements = letter.number();
   }
   for (auto* texts : {&body.side_names, &body.node_set_names, &body.notes, &body.warnings}) *texts = letter.texts();
+  body.left_out.resize(static_cast<std::size_t>(letter.number()));
+  for (LeftOutSet& set : body.left_out) {
+    set.name = letter.text();
+    set.reason = letter.text();
+  }
   return body;
 }
 

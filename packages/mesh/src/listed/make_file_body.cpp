@@ -178,7 +178,9 @@ ListedBody make_file_body(const MeshFile& file, const FileBodyRequest& request, 
   if (chosen.turned_count > 0)
     body.notes.push_back(
         fmt::format("the nodes of {} of {} elements ran clockwise and were turned round", chosen.turned_count, chosen.elements.size()));
+  body.notes.insert(body.notes.end(), chosen.notes.begin(), chosen.notes.end());
   body.notes.insert(body.notes.end(), sets.notes.begin(), sets.notes.end());
+  body.left_out = file.left_out;
   body.warnings = std::move(sets.warnings);
   body.side_names = std::move(sets.side_names);
   body.node_set_names = std::move(sets.node_set_names);

@@ -23,6 +23,7 @@ struct SetMembers {
   std::string name;
   std::vector<ElementSide> sides;
   std::vector<std::int32_t> nodes;
+  std::int64_t faces = 0;  ///< of plane cells that are elements: they lie in the plane of the model
 };
 
 class Finder {
@@ -35,28 +36,37 @@ class Finder {
   }
 
   SetMembers of_sides(const FileSet<FileSide>& set) const {
-    SetMembers found{set.name, {}, {}};
+    SetMembers found{set.name, {}, {}, 0};
     for (const FileSide& side : set.members) {
       const auto group = static_cast<std::size_t>(side.group), cell = static_cast<std::size_t>(side.cell);
       const std::int32_t element = chosen_.elements_of_cells[group][cell];
-      if (side.side == the_cell_itself) {  // a facet of the file: itself an element, or on sides of elements
+      const CellTopology& shape = topology(file_.cells[group].shape);
+      if (side.side < 0) {  // a facet of the file: itself an element, or on sides of elements
         if (element >= 0 && sides_ == nullptr) found.sides.push_back({element, the_cell_itself});
-        if (sides_ != nullptr && topology(file_.cells[group].shape).dimension == request_.dimension - 1)
-          add_sides_under(file_.cells[group], cell, found);
+        if (sides_ != nullptr && shape.dimension == request_.dimension - 1) add_sides_under(file_.cells[group], cell, found);
+        if (sides_ != nullptr && element >= 0) ++found.faces;
+        continue;
+      }
+      if (shape.dimension < request_.dimension) {  // the edge of a facet
+        for (const int place : shape.sides[static_cast<std::size_t>(side.side)].nodes)
+          if (const std::int32_t node = number_[static_cast<std::size_t>(
+                  file_.cells[group].nodes[static_cast<std::size_t>(shape.nodes) * cell + static_cast<std::size_t>(place)])];
+              node >= 0)
+            found.nodes.push_back(node);
         continue;
       }
       if (element < 0) continue;
       // Turned cells: the side from corner s to s + 1 is the one from n - 1 - s to n - s.
       const bool turned = !chosen_.turned[group].empty() && chosen_.turned[group][cell];
-      const int corners = topology(file_.cells[group].shape).corners;
-      found.sides.push_back({element, turned ? corners - 1 - side.side : side.side});
+      found.sides.push_back({element, turned ? shape.corners - 1 - side.side : side.side});
     }
+    make_unique_nodes(found.nodes);
     return found;
   }
 
   /// Cells that are sides: they lie on sides of elements, or are facets themselves.
   SetMembers of_facets(const FileSet<FileCellRange>& set) const {
-    SetMembers found{set.name, {}, {}};
+    SetMembers found{set.name, {}, {}, 0};
     if (sides_ == nullptr) {
       for (const FileCellRange& range : set.members)
         for (std::int32_t cell = range.first; cell < range.first + range.count; ++cell)
@@ -75,7 +85,7 @@ class Finder {
 
   /// Nodes of cells that make no sides: points, in 3D lines, and parts of the body.
   SetMembers of_cells(const FileSet<FileCellRange>& set) const {
-    SetMembers found{set.name, {}, {}};
+    SetMembers found{set.name, {}, {}, 0};
     for (const int dimension : {1, 2, 3}) {
       if (dimension == request_.dimension - 1) continue;
       for_each_cell(set, dimension, [&](const CellTopology& cell, const std::int32_t* nodes) {
@@ -89,7 +99,7 @@ class Finder {
   }
 
   SetMembers of_nodes(const FileSet<std::int32_t>& set) const {
-    SetMembers found{set.name, {}, {}};
+    SetMembers found{set.name, {}, {}, 0};
     for (const std::int32_t node : set.members)
       if (number_[static_cast<std::size_t>(node)] >= 0) found.nodes.push_back(number_[static_cast<std::size_t>(node)]);
     make_unique_nodes(found.nodes);
@@ -146,6 +156,10 @@ class SetNamer {
   SetNamer(const FileBodyRequest& request, const ChosenCells& chosen, const Finder& find) : request_(request), chosen_(chosen), find_(find) {}
 
   void add_sides(SetMembers found) {
+    if (found.faces > 0)
+      sets_.notes.push_back(
+          fmt::format("set \"{}\": {} faces of shells are left out, as they lie in the plane of the model", found.name, found.faces));
+    add_nodes(found);
     if (found.sides.empty()) return;
     make_unique(found.sides, before, same);
     const auto inside = std::count_if(found.sides.begin(), found.sides.end(), [&](const ElementSide& side) { return find_.is_inside(side); });

@@ -62,29 +62,35 @@ bool ByteStream::read(void* to, std::size_t bytes) {
   return true;
 }
 
+void ByteStream::skip_byte_order_mark() {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  while (end_ - at_ < mark.size() && fill()) continue;
+  if (std::string_view(buffer_.data() + at_, std::min(end_ - at_, mark.size())) == mark) at_ += mark.size();
+}
+
 bool ByteStream::next_line(std::string_view& line) {
   std::size_t searched = 0;
   for (;;) {
-    const char* const from = buffer_.data() + at_;
-    const void* const found = end_ > at_ + searched ? std::memchr(from + searched, '\n', end_ - at_ - searched) : nullptr;
-    if (found != nullptr) {
-      const auto length = static_cast<std::size_t>(static_cast<const char*>(found) - from);
-      line = {from, length};
-      at_ += length + 1;
+    const std::string_view there(buffer_.data() + at_, end_ - at_);
+    const auto is_end = [](char c) { return c == '\n' || c == '\r'; };
+    const auto end =
+        static_cast<std::size_t>(std::find_if(there.begin() + static_cast<std::ptrdiff_t>(searched), there.end(), is_end) - there.begin());
+    const bool may_be_half = end + 1 == there.size() && there[end] == '\r' && there.size() < buffer_.size() && left() > std::int64_t(there.size());
+    if (end < there.size() && !may_be_half) {
+      line = there.substr(0, end);
+      at_ += end + (there.substr(end, 2) == "\r\n" ? 2 : 1);
       ++lines_ended_;
-      break;
+      return true;
     }
-    searched = end_ - at_;
-    if (searched == buffer_.size())
-      throw InputError(place_of_line(path_, this->line()), fmt::format("a line of more than {} bytes: the file is no text", searched));
+    searched = end;
+    if (there.size() == buffer_.size())
+      throw InputError(place_of_line(path_, this->line()), fmt::format("a line of more than {} bytes: the file is no text", there.size()));
     if (fill()) continue;
-    if (searched == 0) return false;
-    line = {buffer_.data() + at_, searched};
+    if (there.empty()) return false;
+    line = there.substr(0, end);
     at_ = end_;
-    break;
+    return true;
   }
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return true;
 }
 
 }  // namespace mortise

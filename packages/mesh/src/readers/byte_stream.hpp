@@ -30,9 +30,12 @@ class ByteStream {
   int peek() { return at_ == end_ && !fill() ? -1 : static_cast<unsigned char>(buffer_[at_]); }
   /// Copies the next bytes, or returns false if there are not so many.
   bool read(void* to, std::size_t bytes);
-  /// The rest of a line without its end; valid until the next call of any member. Returns false at the end of the file.
+  /// The rest of a line without its end, which is LF, CR LF or CR; valid until the next call of any member. Returns false at the end of the file.
   /// @throws InputError if a line is longer than any text has
   bool next_line(std::string_view& line);
+
+  /// Passes over the mark by which some editors begin files in UTF-8. To be called before anything is read.
+  void skip_byte_order_mark();
 
   const std::string& path() const { return path_; }
   std::int64_t size() const { return size_; }                                      ///< bytes of the file

@@ -12,9 +12,11 @@ namespace mortise {
 namespace {
 
 template <class Sets>
-const typename Sets::mapped_type& require(const Sets& sets, const Located<std::string>& name, const std::string& kind) {
+const typename Sets::mapped_type& require(const Mesh& mesh, const Sets& sets, const Located<std::string>& name, const std::string& kind) {
   const auto found = sets.find(name.value);
   if (found != sets.end()) return found->second;
+  if (const auto left_out = mesh.left_out_sets.find(name.value); left_out != mesh.left_out_sets.end())
+    throw InputError(name.place, fmt::format("set \"{}\" of the mesh file is left out: {}", name.value, left_out->second));
   std::vector<std::string> names;
   for (const auto& entry : sets) names.push_back(entry.first);
   const std::string hint = did_you_mean(name.value, names);
@@ -24,10 +26,10 @@ const typename Sets::mapped_type& require(const Sets& sets, const Located<std::s
 
 }  // namespace
 
-const SideSet& require_side_set(const Mesh& mesh, const Located<std::string>& name) { return require(mesh.side_sets, name, "side"); }
+const SideSet& require_side_set(const Mesh& mesh, const Located<std::string>& name) { return require(mesh, mesh.side_sets, name, "side"); }
 
 const std::vector<LocalOrdinal>& require_node_set(const Mesh& mesh, const Located<std::string>& name) {
-  return require(mesh.node_sets, name, "node");
+  return require(mesh, mesh.node_sets, name, "node");
 }
 
 namespace {

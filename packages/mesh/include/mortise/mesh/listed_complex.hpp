@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mortise/mesh/cell_nodes.hpp"
+#include "mortise/mesh/mesh_file.hpp"
 #include "mortise/mesh/row_store.hpp"
 #include "mortise/mesh/spatial_placement.hpp"
 
@@ -27,6 +28,7 @@ struct ListedBody {
   std::vector<BodyPart> parts;
   std::vector<std::string> side_names;       ///< of sets of sides on its surface
   std::vector<std::string> node_set_names;   ///< of sets of nodes
+  std::vector<LeftOutSet> left_out;          ///< sets of the file that are not read
   std::vector<std::string> notes;            ///< changes and omissions, in words
   std::vector<std::string> warnings;         ///< things that are most likely not meant, in words
   RowStore<double> coordinates;              ///< [nodes][3]

@@ -70,6 +70,8 @@ struct Mesh {
   std::vector<Block> blocks;                                   ///< in the order of their bodies; the same on every rank (possibly empty)
   std::map<std::string, SideSet> side_sets;                    ///< "body/side"; the same names on every rank
   std::map<std::string, std::vector<LocalOrdinal>> node_sets;  ///< local nodes (owned and ghosts), ascending; every side set is one too
+  std::map<std::string, std::string> left_out_sets;            ///< "body/set" of a mesh file that is not read, and why
+  std::vector<std::string> warnings;                           ///< of elements, in words; the same on every rank
   std::vector<int> body_of_node;                               ///< [local nodes] index of the body that the node belongs to, or whose nodes follow it
   std::vector<ReferencePoint> reference_points;                ///< equal, and in the same order, on every rank
 

@@ -23,10 +23,19 @@ struct FileCellRange {
   std::int32_t group = 0, first = 0, count = 0;
 };
 
-/// A side of a cell: its number in the topology of the shape, or the_cell_itself of shells and of rigid surfaces, whose two faces are the same.
+/// The face of a shell or of a rigid surface that looks against its normal, which nodes in their order turn round.
+inline constexpr int the_other_face = -2;
+
+/// A side of a cell: its number in the topology of the shape, or of a shell or rigid surface the_cell_itself, its face along the normal, or
+/// the_other_face.
 struct FileSide {
   std::int32_t group = 0, cell = 0;
   std::int32_t side = 0;
+};
+
+/// A set of a file that is not read, and why not.
+struct LeftOutSet {
+  std::string name, reason;
 };
 
 /// A named set of a file. Names are unique among the sets of a kind. Members are in the order of the file and may repeat.
@@ -46,7 +55,8 @@ struct MeshFile {
   std::vector<FileSet<FileCellRange>> cell_sets;   ///< element blocks, physical groups, ELSETs; ranges ascend
   std::vector<FileSet<FileSide>> side_sets;        ///< given by sides of cells
   std::vector<FileSet<std::int32_t>> node_sets;    ///< given by nodes
-  std::vector<std::string> notes;                  ///< elements that the reader replaced by others, in words for users
+  std::vector<LeftOutSet> left_out;                ///< sets of any kind
+  std::vector<std::string> notes;                  ///< elements that the reader replaced by others or left out, in words for users
 };
 
 /// The formats that can be read.

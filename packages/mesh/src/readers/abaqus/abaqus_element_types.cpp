@@ -16,26 +16,19 @@ struct AbaqusStem {
   CellShape shape;
 };
 
-/// Solids and plane cells; a formulation stands behind these.
-constexpr std::array<AbaqusStem, 19> solid_stems{{{"C3D4", CellShape::tetrahedron4},
-                                                  {"C3D5", CellShape::pyramid5},
-                                                  {"C3D6", CellShape::wedge6},
-                                                  {"C3D8", CellShape::hexahedron8},
-                                                  {"C3D10", CellShape::tetrahedron10},
-                                                  {"C3D15", CellShape::wedge15},
-                                                  {"C3D20", CellShape::hexahedron20},
-                                                  {"CPE3", CellShape::triangle3},
-                                                  {"CPE4", CellShape::quadrilateral4},
-                                                  {"CPE6", CellShape::triangle6},
-                                                  {"CPE8", CellShape::quadrilateral8},
-                                                  {"CPS3", CellShape::triangle3},
-                                                  {"CPS4", CellShape::quadrilateral4},
-                                                  {"CPS6", CellShape::triangle6},
-                                                  {"CPS8", CellShape::quadrilateral8},
-                                                  {"CAX3", CellShape::triangle3},
-                                                  {"CAX4", CellShape::quadrilateral4},
-                                                  {"CAX6", CellShape::triangle6},
-                                                  {"CAX8", CellShape::quadrilateral8}}};
+/// Solids and plane cells, of displacements or of temperatures (D); a formulation stands behind these.
+constexpr std::array<AbaqusStem, 33> solid_stems{
+    {{"C3D4", CellShape::tetrahedron4},    {"C3D5", CellShape::pyramid5},        {"C3D6", CellShape::wedge6},
+     {"C3D8", CellShape::hexahedron8},     {"C3D10", CellShape::tetrahedron10},  {"C3D15", CellShape::wedge15},
+     {"C3D20", CellShape::hexahedron20},   {"CPE3", CellShape::triangle3},       {"CPE4", CellShape::quadrilateral4},
+     {"CPE6", CellShape::triangle6},       {"CPE8", CellShape::quadrilateral8},  {"CPS3", CellShape::triangle3},
+     {"CPS4", CellShape::quadrilateral4},  {"CPS6", CellShape::triangle6},       {"CPS8", CellShape::quadrilateral8},
+     {"CAX3", CellShape::triangle3},       {"CAX4", CellShape::quadrilateral4},  {"CAX6", CellShape::triangle6},
+     {"CAX8", CellShape::quadrilateral8},  {"DC3D4", CellShape::tetrahedron4},   {"DC3D6", CellShape::wedge6},
+     {"DC3D8", CellShape::hexahedron8},    {"DC3D10", CellShape::tetrahedron10}, {"DC3D15", CellShape::wedge15},
+     {"DC3D20", CellShape::hexahedron20},  {"DC2D3", CellShape::triangle3},      {"DC2D4", CellShape::quadrilateral4},
+     {"DC2D6", CellShape::triangle6},      {"DC2D8", CellShape::quadrilateral8}, {"DCAX3", CellShape::triangle3},
+     {"DCAX4", CellShape::quadrilateral4}, {"DCAX6", CellShape::triangle6},      {"DCAX8", CellShape::quadrilateral8}}};
 
 /// Formulations that Mortise's elements differ from.
 const std::map<std::string, std::string>& formulations() {
@@ -71,27 +64,32 @@ const std::map<std::string, CellShape>& surface_types() {
 struct OtherElements {
   const char* begin;
   const char* what;
+  bool is_left_out;  ///< they stand beside a mesh, whose cells do not need them
 };
 
-constexpr std::array<OtherElements, 19> other_elements{{{"B", "beams"},
-                                                        {"PIPE", "pipes"},
-                                                        {"T2D", "trusses"},
-                                                        {"T3D", "trusses"},
-                                                        {"MASS", "masses"},
-                                                        {"ROTARYI", "rotary inertias"},
-                                                        {"SPRING", "springs"},
-                                                        {"DASHPOT", "dampers"},
-                                                        {"CONN", "connectors"},
-                                                        {"GAP", "gaps"},
-                                                        {"COH", "cohesive elements"},
-                                                        {"DC", "elements of heat conduction"},
-                                                        {"DS", "elements of heat conduction"},
-                                                        {"F3D", "elements of fluids"},
-                                                        {"FC", "elements of fluids"},
-                                                        {"AC", "acoustic elements"},
-                                                        {"CIN", "infinite elements"},
-                                                        {"SAX", "axisymmetric shells"},
-                                                        {"D", "networks of fluids"}}};
+constexpr std::array<OtherElements, 23> other_elements{{{"B", "beams", true},
+                                                        {"PIPE", "pipes", true},
+                                                        {"ELBOW", "pipes", true},
+                                                        {"T2D", "trusses", true},
+                                                        {"T3D", "trusses", true},
+                                                        {"MASS", "masses", true},
+                                                        {"ROTARYI", "rotary inertias", true},
+                                                        {"SPRING", "springs", true},
+                                                        {"DASHPOT", "dampers", true},
+                                                        {"JOINT", "joints", true},
+                                                        {"DCOUP", "distributing couplings", true},
+                                                        {"CONN", "connectors", true},
+                                                        {"GAP", "gaps", true},
+                                                        {"ITS", "gaps of tubes", true},
+                                                        {"COH", "cohesive elements", false},
+                                                        {"DC", "elements of heat convection", false},
+                                                        {"DS", "shells of heat conduction", false},
+                                                        {"F3D", "elements of fluids", false},
+                                                        {"FC", "elements of fluids", false},
+                                                        {"AC", "acoustic elements", false},
+                                                        {"CIN", "infinite elements", false},
+                                                        {"SAX", "axisymmetric shells", false},
+                                                        {"D", "networks of fluids", false}}};
 
 using Corners = std::vector<std::vector<int>>;
 
@@ -114,20 +112,23 @@ AbaqusElementType abaqus_element_type(const std::string& name) {
   for (const AbaqusStem& stem : solid_stems) {
     const std::string begin(stem.name);
     if (!begins_with(name, begin) || (name.size() > begin.size() && std::isdigit(static_cast<unsigned char>(name[begin.size()])))) continue;
-    const auto formulation = formulations().find(name.substr(begin.size()));
+    std::string letters = name.substr(begin.size());
+    if (!letters.empty() && letters.back() == 'T') letters.pop_back();  // has temperatures too: the cells are the same
+    const auto formulation = formulations().find(letters);
     if (formulation == formulations().end())
-      return {std::nullopt, false, fmt::format("{} is not read; {} is, and {}R, {}I, {}H and {}M", name, begin, begin, begin, begin, begin)};
+      return {std::nullopt, false, false,
+              fmt::format("{} is not read; {} is, and {}R, {}I, {}H, {}M and {}T", name, begin, begin, begin, begin, begin, begin)};
     const std::string note = formulation->second.empty() ? "" : fmt::format("elements of type {} are computed with {}", name, formulation->second);
-    return {stem.shape, false, note};
+    return {stem.shape, false, false, note};
   }
   if (const auto found = surface_types().find(name); found != surface_types().end())
-    return {found->second, true, fmt::format("elements of type {} are surfaces, without thickness or stiffness", name)};
-  for (const OtherElements& other : other_elements)
-    if (begins_with(name, other.begin))
-      return {std::nullopt, false,
-              fmt::format("{} is not read: these are {}{}", name, other.what,
-                          name[0] == 'T' ? "; meshes of Gmsh, which has them for its curves, are read from .msh" : "")};
-  return {std::nullopt, false, fmt::format("{} is not read: it is not known", name)};
+    return {found->second, true, false, fmt::format("elements of type {} are surfaces, without thickness or stiffness", name)};
+  for (const OtherElements& other : other_elements) {
+    if (!begins_with(name, other.begin)) continue;
+    if (other.is_left_out) return {std::nullopt, false, true, other.what};
+    return {std::nullopt, false, false, fmt::format("{} is not read: these are {}", name, other.what)};
+  }
+  return {std::nullopt, false, false, fmt::format("{} is not read: it is not known", name)};
 }
 
 int abaqus_side(CellShape shape, int number) {

@@ -13,7 +13,8 @@ namespace mortise {
 struct AbaqusElementType {
   std::optional<CellShape> shape;  ///< none: it is not read
   bool is_surface = false;         ///< a shell, membrane or rigid surface: it has two faces, which are itself
-  std::string note;                ///< the element that replaces it, or the reason why it is not read; may be empty
+  bool is_left_out = false;        ///< it has no cell, as a spring; a mesh is whole without it
+  std::string note;                ///< the element that replaces it, what it is, or the reason why it is not read; may be empty
 };
 
 /// The type of a name in capital letters.

@@ -21,6 +21,7 @@ std::string canonical(const std::string& path) {
 
 AbaqusLines::AbaqusLines(const std::string& path, FileErrors& errors) : errors_(errors), files_{path} {
   stack_.push_back({std::make_unique<ByteStream>(path), 0, canonical(path)});
+  stack_.back().stream->skip_byte_order_mark();
 }
 
 bool AbaqusLines::next(std::string_view& line) {
@@ -52,6 +53,7 @@ void AbaqusLines::include(const std::string& name, AbaqusSpot from) {
     errors_.stop(place(from), fmt::format("\"{}\" includes itself", path));
   try {
     stack_.push_back({std::make_unique<ByteStream>(path), static_cast<std::int32_t>(files_.size()), real});
+    stack_.back().stream->skip_byte_order_mark();
   } catch (const FileError& error) {
     errors_.stop(place(from), error.what());
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "readers/abaqus/abaqus_element_types.hpp"
 
@@ -31,12 +32,19 @@ void AbaqusMeshLines::read_node(std::string_view line) {
   const auto label = context_.label_of(field, "node");
   if (!label) return;
   std::array<double, 3> position{};
-  for (int i = 0; i < 3 && take_abaqus_field(line, field); ++i) {
+  int numbers = 0;
+  for (; take_abaqus_field(line, field); ++numbers) {
     if (field.empty()) continue;  // is 0
     const auto value = real_number_of(field);
-    if (!value) return context_.error(fmt::format("node {}: coordinate {} is \"{}\", no finite number", *label, "xyz"[i], field));
-    position[static_cast<std::size_t>(i)] = *value;
+    if (!value) {
+      const std::string which = numbers < 3 ? fmt::format("coordinate {}", "xyz"[numbers]) : fmt::format("number {} behind its label", numbers + 1);
+      return context_.error(fmt::format("node {}: {} is \"{}\", no finite number", *label, which, field));
+    }
+    if (numbers < 3) position[static_cast<std::size_t>(numbers)] = *value;
   }
+  // The components of a normal may follow.
+  if (numbers > 6)
+    return context_.error(fmt::format("node {} has {} numbers behind its label; expected are x, y, z and a normal, up to 6", *label, numbers));
   require_indices(scope_->coordinates.size(), "nodes");
   scope_->coordinates.push_back(position);
   scope_->node_labels.push_back(*label);
@@ -47,23 +55,43 @@ bool AbaqusMeshLines::begin_elements(const AbaqusKeyword& keyword, AbaqusScope& 
   context_.require_parameters(keyword, {"TYPE", "ELSET", "INPUT"});
   type_name_ = in_capitals(context_.required(keyword, "TYPE"));
   const AbaqusElementType type = abaqus_element_type(type_name_);
-  if (!type.shape) {
+  if (!type.shape && !type.is_left_out) {
     context_.error(keyword.spot, fmt::format("*ELEMENT: type {}", type.note));
     return false;
   }
-  if (!type.note.empty() && std::find(notes_.begin(), notes_.end(), type.note) == notes_.end()) notes_.push_back(type.note);
   scope_ = &scope;
   is_nodes_ = false;
+  set_ = keyword.value("ELSET").value_or("");
+  set_spot_ = keyword.spot;
+  left_out_ = type.is_left_out ? &model_.left_out[fmt::format("{} ({})", type.note, type_name_)] : nullptr;
+  if (keyword.has("INPUT")) context_.lines.include(context_.required(keyword, "INPUT"), keyword.spot);
+  if (left_out_ != nullptr) {
+    first_ = static_cast<std::int32_t>(scope_->left_out_elements.size());
+    return true;
+  }
+  auto& notes = model_.notes;
+  if (!type.note.empty() && std::find(notes.begin(), notes.end(), type.note) == notes.end()) notes.push_back(type.note);
   is_surface_ = type.is_surface;
   group_ = group_of(scope_->cells, *type.shape);
   scope_->cell_spots.resize(scope_->cells.size());
   scope_->cell_is_surface.resize(scope_->cells.size());
   nodes_of_type_ = static_cast<std::size_t>(topology(*type.shape).nodes);
-  set_ = keyword.value("ELSET").value_or("");
   first_ = static_cast<std::int32_t>(scope_->cells[group()].labels.size());
-  set_spot_ = keyword.spot;
-  if (keyword.has("INPUT")) context_.lines.include(context_.required(keyword, "INPUT"), keyword.spot);
   return true;
+}
+
+/// Its nodes are not looked at. They go on in the next line if a comma ends this one.
+void AbaqusMeshLines::read_left_out(std::string_view line) {
+  const bool goes_on = line.back() == ',';
+  std::string_view field;
+  take_abaqus_field(line, field);
+  if (!std::exchange(in_element_, goes_on)) {
+    const auto label = context_.label_of(field, "element");
+    if (!label) return;
+    require_indices(++elements_, "elements");
+    scope_->left_out_elements.push_back(*label);
+    ++*left_out_;
+  }
 }
 
 void AbaqusMeshLines::read_element(std::string_view line) {
@@ -96,16 +124,21 @@ void AbaqusMeshLines::read_element(std::string_view line) {
 }
 
 void AbaqusMeshLines::end() {
-  if (in_element_)
+  if (in_element_ && left_out_ == nullptr)
     context_.error(element_spot_, fmt::format("element {} has {} nodes; {} has {}", element_, element_nodes_.size(), type_name_, nodes_of_type_));
   in_element_ = false;
   if (set_.empty()) return;
   AbaqusSetItem item;
+  item.spot = set_spot_;
+  if (!is_nodes_ && left_out_ != nullptr) {
+    item.kind = AbaqusSetItem::Kind::left_out;
+    item.a = static_cast<std::int32_t>(scope_->left_out_elements.size()) - first_;
+    return scope_->element_sets[set_].items.push_back(item);
+  }
   item.kind = AbaqusSetItem::Kind::indices;
   item.a = first_;
   item.b = static_cast<std::int32_t>(is_nodes_ ? scope_->coordinates.size() : scope_->cells[group()].labels.size()) - first_;
   item.c = is_nodes_ ? 0 : group_;
-  item.spot = set_spot_;
   (is_nodes_ ? scope_->node_sets[set_] : scope_->element_sets[set_]).items.push_back(item);
 }
 

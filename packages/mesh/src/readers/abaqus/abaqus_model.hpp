@@ -16,10 +16,12 @@ namespace mortise {
 /// A line's share of a set. Indices are those of a scope.
 struct AbaqusSetItem {
   enum class Kind : std::uint8_t {
-    label,    ///< a: of a node or element
-    labels,   ///< a, a + c, ... up to b
-    set,      ///< a: index into the scope's names
-    indices,  ///< nodes a to a + b - 1; cells a to a + b - 1 of group c
+    label,        ///< a: of a node or element
+    labels,       ///< a, a + c, ... up to b
+    set,          ///< a: index into the scope's names
+    indices,      ///< nodes a to a + b - 1; cells a to a + b - 1 of group c
+    left_out,     ///< a elements that are not read
+    of_elements,  ///< nodes of the set of elements a: index into the scope's names
   };
   Kind kind = Kind::label;
   std::int32_t a = 0, b = 0, c = 0;
@@ -38,7 +40,8 @@ struct AbaqusSurfaceItem {
   enum class Face : std::uint8_t {
     exterior,  ///< those that no other element has
     side,      ///< S1, S2, ...
-    itself,    ///< SPOS, SNEG
+    positive,  ///< SPOS
+    negative,  ///< SNEG
   };
   AbaqusSetItem of;
   Face face = Face::exterior;
@@ -78,6 +81,8 @@ struct AbaqusScope {
   std::vector<std::vector<bool>> cell_is_surface;   ///< [groups][cells] a shell, membrane or rigid surface
   AbaqusNames<AbaqusSet> node_sets, element_sets;
   AbaqusNames<AbaqusSurface> surfaces;
+  std::vector<std::int64_t> left_out_elements;  ///< labels of elements that are not read
+  std::vector<LeftOutSet> left_out_surfaces;
   std::vector<std::string> names;  ///< that items refer to
 
   /// The number of cell 0 of each group in the order of the groups, and of all cells.
@@ -96,11 +101,12 @@ struct AbaqusModel {
   AbaqusScope outside;  ///< of parts
   std::deque<AbaqusScope> parts;
   std::vector<AbaqusInstance> instances;
-  std::map<std::string, int> passed_over;  ///< number of uses of each keyword that says nothing of the mesh
+  std::map<std::string, int> passed_over;        ///< number of uses of each keyword that says nothing of the mesh
+  std::map<std::string, std::int64_t> left_out;  ///< number of elements of each type that is not read: "springs (SPRINGA)"
   std::vector<std::string> notes;
 };
 
-/// Reads all lines up to the first *STEP.
+/// Reads all lines; behind the first *STEP sets and surfaces alone.
 AbaqusModel parse_abaqus(AbaqusLines& lines, FileErrors& errors);
 
 }  // namespace mortise

@@ -25,14 +25,15 @@ class AbaqusParser {
         continue;
       }
       const AbaqusKeyword keyword = read_abaqus_keyword(line, context_.lines);
-      if (keyword.name == "INCLUDE") {
+      if (keyword.name == "INCLUDE" && !is_in_steps_) {
         context_.require_parameters(keyword, {"INPUT"});
         context_.lines.include(context_.required(keyword, "INPUT"), keyword.spot);
         continue;
       }
       end_data();
-      if (keyword.name == "STEP") break;
-      read_keyword(keyword);
+      is_in_steps_ = is_in_steps_ || keyword.name == "STEP";
+      const bool is_set = keyword.name == "NSET" || keyword.name == "ELSET" || keyword.name == "SURFACE";
+      if (!is_in_steps_ || is_set) read_keyword(keyword);
     }
     end_data();
     if (part_ != nullptr) context_.error(part_spot_, fmt::format("*PART {} has no *END PART", part_->name));
@@ -42,13 +43,12 @@ class AbaqusParser {
  private:
   enum class Data { none, passed_over, mesh, sets, instance };
 
-  AbaqusScope& scope() { return part_ != nullptr ? *part_ : model_.outside; }
+  AbaqusScope& scope() { return part_ != nullptr ? *part_ : has_own_mesh_ ? model_.parts.back() : model_.outside; }
 
   void read_keyword(const AbaqusKeyword& keyword) {
     data_ = Data::passed_over;
     const std::string& name = keyword.name;
-    if (instance_open_ && name != "ENDINSTANCE")
-      context_.stop(keyword.spot, fmt::format("*{} inside of *INSTANCE is not read; give it in the part or in the assembly", name));
+    if (instance_open_) read_keyword_of_instance(keyword);
     if (name == "NODE") {
       mesh_lines_.begin_nodes(keyword, scope());
       data_ = Data::mesh;
@@ -68,7 +68,7 @@ class AbaqusParser {
     else if (name == "INSTANCE")
       read_instance(keyword);
     else if (name == "ENDINSTANCE")
-      instance_open_ = false;
+      instance_open_ = has_own_mesh_ = false;
     else if (is_refused_keyword(name))
       context_.error(keyword.spot, fmt::format("*{} is not read; write the file with all nodes and elements, as preprocessors do", name));
     else if (const auto known = keyword_without_mesh(name))
@@ -78,6 +78,24 @@ class AbaqusParser {
   }
 
   // ---- parts and instances
+
+  /// An instance of a part without a mesh may have one of its own.
+  void read_keyword_of_instance(const AbaqusKeyword& keyword) {
+    static const std::set<std::string> of_meshes{"NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"};
+    AbaqusInstance& instance = model_.instances.back();
+    if (of_meshes.count(keyword.name) == 0) {
+      if (keyword.name != "ENDINSTANCE" && !keyword_without_mesh(keyword.name))
+        context_.stop(keyword.spot, fmt::format("*{} inside of *INSTANCE is not read; give it in the part or in the assembly", keyword.name));
+      return;
+    }
+    if (has_own_mesh_) return;
+    if (!model_.parts[instance.part].coordinates.empty())
+      context_.stop(keyword.spot, fmt::format("instance {} has *{}, and its part {} has nodes: only an instance of a part without nodes has its own",
+                                              instance.name, keyword.name, model_.parts[instance.part].name));
+    instance.part = model_.parts.size();
+    model_.parts.emplace_back().name = instance.name;
+    has_own_mesh_ = true;
+  }
 
   void read_part(const AbaqusKeyword& keyword) {
     const std::string name = context_.required(keyword, "NAME");
@@ -153,13 +171,14 @@ class AbaqusParser {
   AbaqusContext context_;
   AbaqusModel model_;
   std::set<std::string> instance_names_;
-  AbaqusMeshLines mesh_lines_{context_, model_.notes};
+  AbaqusMeshLines mesh_lines_{context_, model_};
   AbaqusSetLines set_lines_{context_, instance_names_};
   Data data_ = Data::none;
   std::unordered_map<std::string, std::size_t> part_places_;
   AbaqusScope* part_ = nullptr;  ///< that is open
   AbaqusSpot part_spot_;
-  bool instance_open_ = false;
+  bool instance_open_ = false, has_own_mesh_ = false;  ///< the instance that is open
+  bool is_in_steps_ = false;
 };
 
 }  // namespace

@@ -62,10 +62,11 @@ class AbaqusReader {
     ReadScope read{&scope, scope.first_cells(), nullptr, nullptr};
     std::vector<std::int64_t> cell_labels;
     for (const FileCells& group : scope.cells) cell_labels.insert(cell_labels.end(), group.labels.begin(), group.labels.end());
-    read.nodes = std::make_unique<AbaqusSets>("node", scope, scope.node_sets, scope.node_labels, std::vector<std::int32_t>{0}, lines_, errors_);
-    read.elements = std::make_unique<AbaqusSets>("element", scope, scope.element_sets, cell_labels, read.first, lines_, errors_);
-    if (const auto& twice = read.nodes->table().repeated())
-      refuse_second("node", scope.node_labels[(*twice)[1]], scope.node_spots[(*twice)[0]], scope.node_spots[(*twice)[1]]);
+    const std::vector<std::int64_t> none;
+    read.nodes = std::make_unique<AbaqusSets>("node", scope, scope.node_sets, scope.node_labels, none, std::vector<std::int32_t>{0}, lines_, errors_);
+    read.elements =
+        std::make_unique<AbaqusSets>("element", scope, scope.element_sets, cell_labels, scope.left_out_elements, read.first, lines_, errors_);
+    if (read.nodes->table().repeated()) check_repeated_nodes(read);
     if (const auto& twice = read.elements->table().repeated())
       refuse_second("element", cell_labels[(*twice)[1]], spot_of_cell(read, (*twice)[0]), spot_of_cell(read, (*twice)[1]));
     for (std::size_t g = 0; g < scope.cells.size(); ++g) {
@@ -90,14 +91,53 @@ class AbaqusReader {
     return read.scope->cell_spots[group][static_cast<std::size_t>(cell - read.first[group])];
   }
 
-  void refuse_second(const char* kind, std::int64_t label, AbaqusSpot first, AbaqusSpot second) {
+  void refuse_second(const char* kind, std::int64_t label, AbaqusSpot first, AbaqusSpot second, const char* how = "") {
     const Place place = lines_.place(first);
-    errors_.add(lines_.place(second), fmt::format("{} {} stands twice; the first is at {}:{}", kind, label, place.file, place.line));
+    errors_.add(lines_.place(second), fmt::format("{} {} stands twice{}; the first is at {}:{}", kind, label, how, place.file, place.line));
+  }
+
+  /// A node may stand twice at one place. The second has no element then.
+  void check_repeated_nodes(const ReadScope& read) {
+    const AbaqusScope& scope = *read.scope;
+    std::int64_t repeated = 0;
+    for (std::size_t n = 0; n < scope.node_labels.size(); ++n) {
+      const auto first = static_cast<std::size_t>(read.nodes->table().find(scope.node_labels[n]));
+      if (first == n) continue;
+      ++repeated;
+      if (scope.coordinates[n] != scope.coordinates[first])
+        refuse_second("node", scope.node_labels[n], scope.node_spots[first], scope.node_spots[n], ", with other coordinates");
+    }
+    file_.notes.push_back(fmt::format("{} lines of nodes stand twice with the same coordinates", repeated));
   }
 
   void resolve_sets(ReadScope& read, const AbaqusSets::Instances& nodes, const AbaqusSets::Instances& elements) {
-    for (std::string& note : read.nodes->resolve(nodes)) file_.notes.push_back(std::move(note));
     for (std::string& note : read.elements->resolve(elements)) file_.notes.push_back(std::move(note));
+    const auto nodes_of_elements = [&](const AbaqusSetItem& item, std::vector<std::int32_t>& to) {
+      AbaqusSetItem of = item;
+      of.kind = AbaqusSetItem::Kind::set;
+      std::vector<std::int32_t> cells;
+      read.elements->append(of, elements, cells);
+      for (const std::int32_t cell : cells) append_nodes(read, cell, to);
+    };
+    for (std::string& note : read.nodes->resolve(nodes, nodes_of_elements)) file_.notes.push_back(std::move(note));
+  }
+
+  /// Nodes of a cell of a scope, which are those of the mesh where the scope is that outside of parts.
+  void append_nodes(const ReadScope& read, std::int32_t cell, std::vector<std::int32_t>& to) const {
+    const FileCells* cells = nullptr;
+    std::size_t place = 0;
+    if (&read == &outside_) {
+      const FileSide of = side_of(find_cell(cell), 0);
+      cells = &file_.cells[static_cast<std::size_t>(of.group)];
+      place = static_cast<std::size_t>(of.cell);
+    } else {
+      const std::size_t group = group_of_cell(read, cell);
+      cells = &read.scope->cells[group];
+      place = static_cast<std::size_t>(cell - read.first[group]);
+    }
+    const auto width = static_cast<std::size_t>(topology(cells->shape).nodes);
+    const auto begin = cells->nodes.begin() + static_cast<std::ptrdiff_t>(width * place);
+    to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
   }
 
   // ---- places
@@ -194,6 +234,10 @@ class AbaqusReader {
       const auto& element_sets = read.scope->element_sets.all();
       for (std::size_t s = 0; s < element_sets.size(); ++s) {
         if (element_sets[s].is_internal) continue;
+        if (read.elements->members(s).empty() && read.elements->left_out(s) > 0) {
+          leave_out(placed.prefix + element_sets[s].name, read.elements->left_out(s));
+          continue;
+        }
         auto& ranges = cell_sets_[placed.prefix + element_sets[s].name];
         for (const std::int32_t element : read.elements->members(s)) {
           const FileSide cell = side_of(find_cell(placed.first_element + element), 0);
@@ -203,8 +247,18 @@ class AbaqusReader {
     }
     const auto nodes = of_instances(&ReadScope::nodes, &PlacedScope::first_node),
                elements = of_instances(&ReadScope::elements, &PlacedScope::first_element);
-    for (const PlacedScope& placed : placed_)
+    for (const PlacedScope& placed : placed_) {
       for (const AbaqusSurface& surface : placed.of->scope->surfaces.all()) add_surface(placed, surface, nodes, elements);
+      for (const LeftOutSet& surface : placed.of->scope->left_out_surfaces) {
+        file_.left_out.push_back({placed.prefix + surface.name, surface.reason});
+        file_.notes.push_back(fmt::format("surface \"{}\" is left out: {}", placed.prefix + surface.name, surface.reason));
+      }
+    }
+  }
+
+  void leave_out(const std::string& name, std::int64_t elements) {
+    file_.left_out.push_back({name, fmt::format("its {} elements are of types that are not read", elements)});
+    file_.notes.push_back(fmt::format("\"{}\" is left out: {}", name, file_.left_out.back().reason));
   }
 
   void add_surface(const PlacedScope& placed, const AbaqusSurface& surface, const AbaqusSets::Instances& nodes,
@@ -220,16 +274,20 @@ class AbaqusReader {
       for (const std::int32_t node : found) members.push_back(placed.first_node + node);
       return;
     }
-    auto& members = side_sets_[placed.prefix + surface.name];
+    std::vector<FileSide> members;
+    std::int64_t left_out = 0;
     for (const AbaqusSurfaceItem& item : surface.items) {
       std::vector<std::int32_t> found;
-      placed.of->elements->append(item.of, elements, found);
+      left_out += placed.of->elements->append(item.of, elements, found).left_out;
       for (std::int32_t& element : found) element += placed.first_element;
       if (item.face == AbaqusSurfaceItem::Face::exterior)
         add_exterior(std::move(found), members);
       else
         for (const std::int32_t element : found) add_side(item, find_cell(element), surface.name, members);
     }
+    if (members.empty() && left_out > 0) return leave_out(placed.prefix + surface.name, left_out);
+    auto& all = side_sets_[placed.prefix + surface.name];
+    all.insert(all.end(), members.begin(), members.end());
   }
 
   void add_exterior(std::vector<std::int32_t> elements, std::vector<FileSide>& members) const {
@@ -252,9 +310,10 @@ class AbaqusReader {
     const ReadScope& read = *of.scope->of;
     const std::size_t group = group_of_cell(read, of.cell);
     const bool is_surface = read.scope->cell_is_surface[group][static_cast<std::size_t>(of.cell - read.first[group])];
-    // CalculiX calls the two faces of a shell S1 and S2, too.
-    const bool wants_itself = item.face == AbaqusSurfaceItem::Face::itself || (is_surface && item.number <= 2);
-    FileSide side = side_of(of, the_cell_itself);
+    // CalculiX calls the faces of a shell S1 and S2, too: against its normal, and along it.
+    const bool is_negative = item.face == AbaqusSurfaceItem::Face::negative || (is_surface && item.number == 1);
+    const bool wants_itself = is_negative || item.face == AbaqusSurfaceItem::Face::positive || (is_surface && item.number == 2);
+    FileSide side = side_of(of, is_negative ? the_other_face : the_cell_itself);
     const FileCells& cells = file_.cells[static_cast<std::size_t>(side.group)];
     if (!wants_itself && !is_surface) side.side = abaqus_side(cells.shape, item.number);
     if (wants_itself != is_surface || (!is_surface && side.side < 0))
@@ -266,6 +325,9 @@ class AbaqusReader {
 
   void tell_what_was_passed_over() {
     for (std::string& note : model_.notes) file_.notes.push_back(std::move(note));
+    std::vector<std::string> types;
+    for (const auto& [type, count] : model_.left_out) types.push_back(fmt::format("{} {}", count, type));
+    if (!types.empty()) file_.notes.push_back(fmt::format("elements that are left out, as they have no cells here: {}", fmt::join(types, ", ")));
     if (model_.passed_over.empty()) return;
     std::vector<std::string> words;
     for (const auto& [name, count] : model_.passed_over) words.push_back(count == 1 ? "*" + name : fmt::format("*{} ({})", name, count));

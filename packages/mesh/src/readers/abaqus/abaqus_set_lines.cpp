@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 namespace mortise {
 
 std::int32_t AbaqusSetLines::name_index(std::string_view name) {
@@ -16,12 +18,22 @@ void AbaqusSetLines::begin_set(const AbaqusKeyword& keyword, AbaqusScope& scope)
   kind_ = keyword.name == "NSET" ? Kind::nodes : Kind::elements;
   const bool of_nodes = kind_ == Kind::nodes;
   const char* const kind = of_nodes ? "NSET" : "ELSET";
-  context_.require_parameters(keyword, {kind, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"});
+  std::vector<std::string> known{kind, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"};
+  if (of_nodes) known.emplace_back("ELSET");
+  context_.require_parameters(keyword, known);
   set_ = context_.required(keyword, kind);
   is_generated_ = keyword.has("GENERATE");
   read_instance_parameter(keyword);
   AbaqusSet& set = of_nodes ? scope_->node_sets[set_] : scope_->element_sets[set_];
   if (keyword.has("INTERNAL")) set.is_internal = true;
+  if (of_nodes && keyword.has("ELSET")) {
+    AbaqusSetItem item;
+    item.kind = AbaqusSetItem::Kind::of_elements;
+    item.a = name_index(context_.required(keyword, "ELSET"));
+    item.instance = of_instance_;
+    item.spot = keyword.spot;
+    set.items.push_back(item);
+  }
 }
 
 void AbaqusSetLines::read_instance_parameter(const AbaqusKeyword& keyword) {
@@ -85,6 +97,14 @@ void AbaqusSetLines::read_generated(std::string_view line, AbaqusSet& set, const
 bool AbaqusSetLines::begin_surface(const AbaqusKeyword& keyword, AbaqusScope& scope) {
   context_.require_parameters(keyword, {"NAME", "TYPE", "INTERNAL"});
   const std::string type = in_capitals(keyword.value("TYPE").value_or("ELEMENT"));
+  static const std::map<std::string, const char*> analytic{{"SEGMENTS", "the generator \"profile\" makes such a rigid surface in 2D"},
+                                                           {"CYLINDER", "the generator \"extruded\" makes such a rigid surface"},
+                                                           {"REVOLUTION", "the generator \"revolved\" makes such a rigid surface"}};
+  if (const auto found = analytic.find(type); found != analytic.end()) {
+    scope.left_out_surfaces.push_back(
+        {context_.required(keyword, "NAME"), fmt::format("it is a surface of TYPE={}, which has no mesh; {}", type, found->second)});
+    return false;
+  }
   if (type != "ELEMENT" && type != "NODE") {
     context_.error(keyword.spot, fmt::format("*SURFACE: TYPE={} is not read; ELEMENT and NODE are", type));
     return false;
@@ -113,7 +133,7 @@ void AbaqusSetLines::read_surface_line(std::string_view line) {
     const std::string name = in_capitals(face);
     const auto number = name[0] == 'S' ? whole_number_of(std::string_view(name).substr(1)) : std::nullopt;
     if (name == "SPOS" || name == "SNEG") {
-      item.face = AbaqusSurfaceItem::Face::itself;
+      item.face = name == "SPOS" ? AbaqusSurfaceItem::Face::positive : AbaqusSurfaceItem::Face::negative;
     } else if (number && *number >= 1 && *number <= 6) {
       item.face = AbaqusSurfaceItem::Face::side;
       item.number = static_cast<int>(*number);

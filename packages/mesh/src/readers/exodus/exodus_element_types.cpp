@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "mortise/mesh/cell_nodes.hpp"
+#include "mortise/mesh/mesh_file.hpp"
 #include "readers/file_cells.hpp"
 
 namespace mortise {
@@ -52,12 +53,17 @@ const std::vector<ExodusFamily>& exodus_families() {
   return all;
 }
 
-/// In 3D the first two sides of a plane cell are its faces; its edges follow.
-std::vector<int> sides_of(CellShape shape, const ExodusSides& corners, bool is_surface) {
+/// The first two sides of a shell are its faces, along its normal and against it; its edges follow.
+std::vector<int> sides_of(CellShape shape, const ExodusSides& corners, bool is_shell) {
   std::vector<int> sides;
-  if (is_surface) sides.assign(2, the_cell_itself);
-  for (const auto& side : corners) sides.push_back(is_surface ? no_exodus_side : side_with_corners(shape, side));
+  if (is_shell) sides = {the_cell_itself, the_other_face};
+  for (const auto& side : corners) sides.push_back(side_with_corners(shape, side));
   return sides;
+}
+
+/// As Exodus' library has it: triangles are shells wherever there are three coordinates, quadrilaterals by their name.
+bool is_shell(const ExodusFamily& family, const std::string& letters, int dimension) {
+  return family.dimension == 2 && dimension == 3 && letters != "QUAD";
 }
 
 std::string without_digits(const std::string& name) {
@@ -89,7 +95,7 @@ ExodusElementType exodus_element_type(const std::string& name, std::int64_t node
     std::string known;
     for (const auto& [shape, edges] : family.members) {
       const int own = topology(shape).nodes;
-      if (own == nodes) return {false, shape, order_of_nodes(shape, edges), sides_of(shape, family.sides, family.dimension == 2 && dimension == 3)};
+      if (own == nodes) return {false, shape, order_of_nodes(shape, edges), sides_of(shape, family.sides, is_shell(family, letters, dimension))};
       known += fmt::format("{}{}", known.empty() ? "" : " or ", own);
     }
     refusal = fmt::format("elements of type \"{}\" with {} nodes are not read; with {} nodes they are", name, nodes, known);

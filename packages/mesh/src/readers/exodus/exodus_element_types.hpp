@@ -14,11 +14,8 @@ struct ExodusElementType {
   bool is_point = false;  ///< the rest says nothing then
   CellShape shape = CellShape::line2;
   std::vector<int> order;  ///< for each node of the shape its place in the file
-  std::vector<int> sides;  ///< for each side of the file, from 0, the side of the shape, or the_cell_itself; -2: a side that is no cell's
+  std::vector<int> sides;  ///< for each side of the file, from 0, the side of the shape, the_cell_itself or the_other_face
 };
-
-/// A side number of the file for which there is none of ours.
-inline constexpr int no_exodus_side = -2;
 
 /// The type, where the cell has so many nodes in a space of this dimension; else why it is not read stands in `refusal`.
 ExodusElementType exodus_element_type(const std::string& name, std::int64_t nodes, int dimension, std::string& refusal);

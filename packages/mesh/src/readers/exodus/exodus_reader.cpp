@@ -40,7 +40,6 @@ class ExodusReader {
     for (const std::int64_t id : in_.ids(EX_SIDE_SET, in_.side_sets(), "side sets")) read_side_set(id);
     for (const std::int64_t id : in_.ids(EX_NODE_SET, in_.node_sets(), "node sets")) read_node_set(id);
     errors_.finish();
-    if (faces_of_shells_) file_.notes.push_back("side sets on faces of shells: both faces of a shell are taken for the same surface");
     file_.cell_sets = cell_sets_.take();
     for (auto& set : file_.cell_sets) join_ranges(set.members);
     file_.side_sets = side_sets_.take();
@@ -176,14 +175,13 @@ class ExodusReader {
           std::upper_bound(blocks_.begin(), blocks_.end(), element, [](std::int64_t e, const ExodusBlock& b) { return e < b.first_element; });
       const ExodusBlock& block = *std::prev(after);
       const auto known = static_cast<std::int64_t>(block.type.sides.size());
-      const int own = side < 0 || side >= known ? no_exodus_side : block.type.sides[static_cast<std::size_t>(side)];
-      if (own == no_exodus_side) {
-        error(fmt::format("{}, member {}: element {} of block {} has no side {}; sides that are read are 1 to {}", what, s + 1, elements[s], block.id,
-                          sides[s], std::count_if(block.type.sides.begin(), block.type.sides.end(), [](int one) { return one != no_exodus_side; })));
+      if (side < 0 || side >= known) {
+        error(fmt::format("{}, member {}: element {} of block {} has no side {}; sides are 1 to {}", what, s + 1, elements[s], block.id, sides[s],
+                          known));
         continue;
       }
-      if (own == the_cell_itself) faces_of_shells_ = true;
-      members.push_back({block.group, static_cast<std::int32_t>(block.first_cell + element - block.first_element), own});
+      members.push_back({block.group, static_cast<std::int32_t>(block.first_cell + element - block.first_element),
+                         block.type.sides[static_cast<std::size_t>(side)]});
     }
   }
 
@@ -208,7 +206,6 @@ class ExodusReader {
   FileErrors errors_;
   std::vector<ExodusBlock> blocks_;
   std::int64_t read_elements_ = 0;
-  bool faces_of_shells_ = false;
   SetsInOrder<FileCellRange> cell_sets_;
   SetsInOrder<FileSide> side_sets_;
   SetsInOrder<std::int32_t> node_sets_;

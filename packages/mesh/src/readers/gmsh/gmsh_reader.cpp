@@ -44,6 +44,7 @@ class GmshReader {
   }
 
   void read_format() {
+    stream_.skip_byte_order_mark();
     const std::string first = text_line();
     const Place place = place_of_line(stream_.path(), 1);
     if (first == "$NOD" || first == "$NOE") errors_.stop(place, fmt::format("the file is of Gmsh's format 1; {}", how_to_write));

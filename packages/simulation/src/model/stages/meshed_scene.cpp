@@ -64,6 +64,7 @@ RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene, Mes
   }
   refuse_too_large(*comm, bodies);
   const auto mesh = build_mesh(comm, bodies, contact_sides(scene), reference_points(scene));
+  remarks.warnings.insert(remarks.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
   add_sets(*mesh, scene.sets);
   tie(*mesh, scene);
   return mesh;
