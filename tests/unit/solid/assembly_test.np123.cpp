@@ -71,13 +71,16 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
   DeadTractionOptions traction;
   traction.set.value = "body/right";
   traction.y = parse_expression("1+y", {});
+  SurfaceForceOptions spread;
+  spread.set.value = "body/right";
+  spread.x = parse_expression("2-t", {});
   FollowerPressureOptions pressure;
   pressure.set.value = "body/surface";
   pressure.pressure = parse_expression("3+x*y", {});
   GravityOptions gravity;
   gravity.y = -9.81;
   if (dimension == 3) nodal.z = traction.z = gravity.z = parse_expression("t", {});
-  for (const LoadOptions* options : std::initializer_list<const LoadOptions*>{&nodal, &traction, &pressure, &gravity}) {
+  for (const LoadOptions* options : std::initializer_list<const LoadOptions*>{&nodal, &traction, &spread, &pressure, &gravity}) {
     const auto load = options->make(bodies);
     load->add_residual(0.5, local, residual, failure);
     load->add_jacobian(0.5, local, matrix, failure);

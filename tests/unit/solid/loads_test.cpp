@@ -99,6 +99,26 @@ TEST(DeadTraction, HoldsTheStressItStandsFor) {
   EXPECT_LE(out_of_balance.cwiseAbs().maxCoeff(), 1e-12 * scale);
 }
 
+TEST(SurfaceForce, IsATractionOfTheForceOverTheArea) {
+  for (const auto& [name, kinematics] : kinematics_names()) {
+    if (dimension(kinematics) == 3) continue;
+    const auto bodies = bodies_of(kinematics);
+    SurfaceForceOptions options;
+    options.set.value = "body/top";
+    options.x = parse_expression("3*t", {});
+    options.y = -5.0;
+    const Eigen::VectorXd f = force(*bodies, *options.make(bodies), bent(*bodies), 2.0);
+    DeadTractionOptions traction;
+    traction.set.value = "body/top";
+    const double area = kinematics == Kinematics::axisymmetric ? EIGEN_PI * (9.0 - 4.0) : 0.7;  // on y = 1 between x = 2 and 3
+    traction.x = 6.0 / area;
+    traction.y = -5.0 / area;
+    EXPECT_LE((f - force(*bodies, *traction.make(bodies), bent(*bodies), 2.0)).cwiseAbs().maxCoeff(), 1e-13) << name;
+    EXPECT_NEAR(sum(f, 0), 6.0, 1e-13) << name;
+    EXPECT_NEAR(sum(f, 1), -5.0, 1e-13) << name;
+  }
+}
+
 TEST(FollowerPressure, PushesAgainstTheOutwardNormal) {
   const auto bodies = bodies_of(Kinematics::plane_strain);
   FollowerPressureOptions options;
@@ -204,7 +224,7 @@ TEST(Loads, ReportAnExpressionWithoutAValueAsFailure) {
 TEST(Loads, AreRegistered) {
   std::vector<std::string> names;
   for (const auto& entry : load_registry().entries()) names.push_back(entry.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"nodal force", "moment", "dead traction", "follower pressure", "gravity"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"nodal force", "surface force", "moment", "dead traction", "follower pressure", "gravity"}));
 }
 
 }  // namespace

@@ -72,6 +72,25 @@ TEST(SpaceLoads, DeadTractionHasTheResultantOfItsIntegral) {
   }
 }
 
+TEST(SpaceLoads, SurfaceForceIsATractionOfTheForceOverTheArea) {
+  for (const ElementType element : elements_of(3)) {
+    const auto bodies = brick_of(element, 0.0);
+    SurfaceForceOptions options;
+    options.set.value = "body/top";  // of area 1
+    options.x = parse_expression("3*t", {});
+    options.y = -5.0;
+    options.z = ScalarFunction(7.0);
+    DeadTractionOptions traction;
+    traction.set.value = "body/top";
+    traction.x = 6.0;
+    traction.y = -5.0;
+    traction.z = ScalarFunction(7.0);
+    const Eigen::VectorXd f = force(*bodies, *options.make(bodies), bent(*bodies), 2.0);
+    EXPECT_LE((f - force(*bodies, *traction.make(bodies), bent(*bodies), 2.0)).cwiseAbs().maxCoeff(), 1e-13) << to_string(element);
+    EXPECT_LE((sum(f) - Eigen::Vector3d(6.0, -5.0, 7.0)).norm(), 1e-13) << to_string(element);
+  }
+}
+
 TEST(SpaceLoads, DeadTractionHoldsTheStressItStandsFor) {
   // A homogeneous first Piola-Kirchhoff stress P is in equilibrium with T = P N on all sides.
   Matrix3 F;

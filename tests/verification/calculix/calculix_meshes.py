@@ -15,8 +15,9 @@ import subprocess
 import sys
 
 SOLIDS = {"C3D4": 4, "C3D6": 6, "C3D8": 8, "C3D8R": 8, "C3D8I": 8, "C3D10": 10, "C3D10T": 10, "C3D10M": 10,
-          "C3D15": 15, "C3D20": 20, "C3D20R": 20, "C3D20RI": 20}
-PLANE = {f"{kind}{nodes}{variant}": nodes for kind in ("CPE", "CPS", "CAX") for nodes in (3, 4, 6, 8) for variant in ("", "R")}
+          "C3D15": 15, "C3D20": 20, "C3D20R": 20, "C3D20RI": 20,
+          "DC3D4": 4, "DC3D6": 6, "DC3D8": 8, "DC3D10": 10, "DC3D15": 15, "DC3D20": 20}
+PLANE = {f"{kind}{nodes}{variant}": nodes for kind in ("CPE", "CPS", "CAX", "DC2D", "DCAX") for nodes in (3, 4, 6, 8) for variant in ("", "R")}
 SHELLS = {f"{kind}{variant}": nodes for kind, nodes in (("S3", 3), ("S4", 4), ("S6", 6), ("S8", 8), ("M3D4", 4), ("M3D8", 8)) for variant in ("", "R")}
 SCENE = """<ParameterList name="deck"><Parameter name="kinematics" type="string" value="{kinematics}"/>
 <ParameterList name="materials"><ParameterList name="m"><Parameter name="type" type="string" value="small strain linear"/>

@@ -169,6 +169,7 @@ const Registry<LoadOptions>& load_registry() {
   static const Registry<LoadOptions> registry =
       Registry<LoadOptions>()
           .add<NodalForceOptions>("nodal force", "one force on each node of a set")
+          .add<SurfaceForceOptions>("surface force", "one force on a whole surface, spread evenly over its reference area")
           .add<MomentOptions>("moment", "a moment on a reference point that rotates")
           .add<DeadTractionOptions>("dead traction", "force per reference area, of fixed direction")
           .add<FollowerPressureOptions>("follower pressure", "pressure on the current surface, against its outward normal")

@@ -89,7 +89,7 @@ constexpr std::array<OtherElements, 23> other_elements{{{"B", "beams", true},
                                                         {"AC", "acoustic elements", false},
                                                         {"CIN", "infinite elements", false},
                                                         {"SAX", "axisymmetric shells", false},
-                                                        {"D", "networks of fluids", false}}};
+                                                        {"D", "networks of fluids", true}}};
 
 using Corners = std::vector<std::vector<int>>;
 

@@ -1,5 +1,5 @@
 #pragma once
-// External loads: nodal forces, moments, dead tractions, follower pressures, gravity.
+// External loads: forces on nodes and surfaces, moments, dead tractions, follower pressures, gravity.
 
 #include <array>
 #include <memory>
@@ -67,6 +67,15 @@ struct DeadTractionOptions : LoadOptions {
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
 
+/// A force of fixed direction on a whole surface, spread evenly over its reference area. Axisymmetric: the force on the whole circle. [force]
+struct SurfaceForceOptions : LoadOptions {
+  Located<std::string> set;
+  ScalarFunction x, y;              ///< of t
+  std::optional<ScalarFunction> z;  ///< only in three dimensions
+  void describe(Parameters& parameters) override;
+  std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
+};
+
 /// Pressure on the current surface, against its current outward normal. [stress]
 /// f_ext_a = - integral of N_a p n dgamma; in 2D the thickness is the reference one.
 struct FollowerPressureOptions : LoadOptions {
@@ -85,7 +94,7 @@ struct GravityOptions : LoadOptions {
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
 
-/// All kinds by name: "nodal force", "moment", "dead traction", "follower pressure", "gravity".
+/// All kinds by name: "nodal force", "surface force", "moment", "dead traction", "follower pressure", "gravity".
 const Registry<LoadOptions>& load_registry();
 
 }  // namespace mortise
