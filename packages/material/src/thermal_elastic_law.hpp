@@ -7,21 +7,31 @@
 
 namespace mortise {
 
-/// A point remembers its principal stretches if elastic strain heats, else nothing.
+/// A point remembers its principal stretches if elastic strain heats, and what HeatWeights needs; else nothing.
 template <class Kind, bool plane_stress>
 class ThermalElasticLaw final : public ThermalLaw {
   static constexpr bool small = Kind::small_strain;
 
  public:
-  explicit ThermalElasticLaw(const MaterialOptions& material) : constants_(material) {}
+  ThermalElasticLaw(const MaterialOptions& material, double share_at_start) : constants_(material), weights_(share_at_start) {}
 
   bool small_strain() const override { return small; }
   const char* name() const override { return Kind::name; }
   bool has_plasticity() const override { return false; }
   bool heats() const override { return constants_.thermoelastic_heating(); }
-  int state_size() const override { return heats() ? 3 : 0; }
-  void start(double* state) const override { std::fill_n(state, state_size(), 1.0); }
-  std::optional<std::string> fault(const ThermalPoint& at) const override { return constants_.fault(at); }
+  int state_size() const override { return heats() ? temperatures + weights_.state_size() : 0; }
+  void start(double* state) const override {
+    if (!heats()) return;
+    std::fill_n(state, temperatures, 1.0);
+    weights_.start(state + temperatures);
+  }
+  void begin(const ThermalPoint& at, double* state) const override {
+    if (heats()) weights_.remember(at, state + temperatures);
+  }
+  std::optional<std::string> fault(const ThermalPoint& at, const double* state) const override {
+    std::optional<std::string> result = constants_.fault(at);
+    return result || !has_start() ? result : constants_.fault(HeatWeights::with_start(at, state + temperatures));
+  }
 
   ThermalForces forces(const ThermalPoint& at, const double* state) const override {
     const ConstantsAtTemperature constants = constants_.at(at, heats() ? 1 : 0);
@@ -33,7 +43,15 @@ class ThermalElasticLaw final : public ThermalLaw {
     result.thickness = thickness(F, constants);
     if (heats()) {
       const Matrix3 start = start_of(constants, state);
-      result.heat = at.temperature / at.time_step * (slope_value(law, constants, F) - slope_value(law, constants, start));
+      result.heat = weights_.at_end() * at.temperature / at.time_step * (slope_value(law, constants, F) - slope_value(law, constants, start));
+    }
+    if (has_start()) {
+      const ThermalPoint then = HeatWeights::with_start(at, state + temperatures);
+      const ConstantsAtTemperature constants_then = constants_.at(then, 1);
+      if (!constants_then.valid) return {};
+      const Kind law_then(constants_then.elastic());
+      result.heat += factor_of_start(then, weights_) * (slope_value(law_then, constants_then, with_expansion_of(constants_then, constants, F)) -
+                                                        slope_value(law_then, constants_then, start_of(constants_then, state)));
     }
     return result;
   }
@@ -54,9 +72,10 @@ class ThermalElasticLaw final : public ThermalLaw {
     if (heats()) {
       const Matrix3 start = start_of(constants, state);
       add_thermoelastic_heat(
-          at, energy_slope<small>(constants, response, rates),
+          at, weights_.at_end(), energy_slope<small>(constants, response, rates),
           energy_slope<small>(constants, law.template stress_and_tangent<SolidComponents>(start), property_rates(law, constants, start)), result);
     }
+    if (has_start() && !add_heat_of_start(at, constants, F, state, result)) return {};
     if constexpr (plane_stress) condense_thickness(result);
     return result;
   }
@@ -78,9 +97,14 @@ class ThermalElasticLaw final : public ThermalLaw {
     const Matrix3 F = total_deformation<small>(elastic(Kind(constants.elastic()), constants, at.F), constants.expansion.value);
     const Eigen::Vector3d stretches = principal_stretches<small>(F);
     std::copy_n(stretches.data(), 3, state);
+    weights_.remember(at, state + temperatures);
   }
 
  private:
+  static constexpr int temperatures = 3;  ///< place after the stretches
+
+  bool has_start() const { return heats() && weights_.has_start(); }
+
   static double thickness([[maybe_unused]] const Matrix3& F_e, [[maybe_unused]] const ConstantsAtTemperature& constants) {
     return plane_stress ? total_deformation<small>(F_e, constants.expansion.value)(2, 2) : 1.0;
   }
@@ -93,7 +117,28 @@ class ThermalElasticLaw final : public ThermalLaw {
       return F_e;
   }
 
-  /// A deformation with the stretches of the step's start at the temperature of its end.
+  /// F_e at the end of the step if there were the thermal strain of its start.
+  static Matrix3 with_expansion_of(const ConstantsAtTemperature& start, const ConstantsAtTemperature& end, const Matrix3& F_e) {
+    return elastic_deformation<small>(total_deformation<small>(F_e, end.expansion.value), start.expansion.value);
+  }
+
+  /// Adds s theta_n (m(F, theta_n) - m(F_n, theta_n)) / Delta t and its derivative by F, which is all that it depends on.
+  /// @return false where the constants of the start have no meaning
+  bool add_heat_of_start(const ThermalPoint& at, const ConstantsAtTemperature& of_end, const Matrix3& F_e, const double* state,
+                         ThermalResponse& response) const {
+    const ThermalPoint then = HeatWeights::with_start(at, state + temperatures);
+    const ConstantsAtTemperature constants = constants_.at(then, 1);
+    if (!constants.valid) return false;
+    const Kind law(constants.elastic());
+    const Matrix3 F = with_expansion_of(constants, of_end, F_e);
+    const EnergySlope end = energy_slope<small>(constants, law.template stress_and_tangent<SolidComponents>(F), property_rates(law, constants, F));
+    const double factor = factor_of_start(then, weights_);
+    response.heat += factor * (end.value - slope_value(law, constants, start_of(constants, state)));
+    response.heat_by_gradient += factor * end.by_gradient;
+    return true;
+  }
+
+  /// A deformation with the stretches of the step's start at the temperature of `constants`.
   static Matrix3 start_of(const ConstantsAtTemperature& constants, const double* state) {
     return elastic_deformation<small>(Eigen::Map<const Eigen::Vector3d>(state).asDiagonal().toDenseMatrix(), constants.expansion.value);
   }
@@ -121,6 +166,7 @@ class ThermalElasticLaw final : public ThermalLaw {
   }
 
   ThermalConstants constants_;
+  HeatWeights weights_;
 };
 
 }  // namespace mortise

@@ -1,6 +1,7 @@
 #pragma once
 // What thermal expansion makes of an elastic law, and the energy that its heat follows from.
 
+#include "heat_weights.hpp"
 #include "property_rates.hpp"
 
 namespace mortise {
@@ -62,13 +63,20 @@ Eigen::Vector3d principal_stretches(const Matrix3& F) {
   return small_strain ? values : Eigen::Vector3d(values.cwiseSqrt());
 }
 
-/// Adds H = theta (m - m_n) / Delta t and its derivatives. `start` is m_n, m of the start's stretches at the temperatures of the end.
-inline void add_thermoelastic_heat(const ThermalPoint& point, const EnergySlope& end, const EnergySlope& start, ThermalResponse& response) {
-  const double rate = 1.0 / point.time_step, factor = point.temperature * rate;
+/// Adds (1 - s) theta (m - m_n) / Delta t and its derivatives. `start` is m_n, m of the start's stretches at the temperatures of the end.
+/// @param weight  1 - s
+inline void add_thermoelastic_heat(const ThermalPoint& point, double weight, const EnergySlope& end, const EnergySlope& start,
+                                   ThermalResponse& response) {
+  const double rate = weight / point.time_step, factor = point.temperature * rate;
   response.heat += factor * (end.value - start.value);
   response.heat_by_gradient += factor * end.by_gradient;
   response.heat_by_expansion += factor * (end.by_expansion - start.by_expansion);
   response.heat_by_temperature += factor * (end.by_temperature - start.by_temperature) + rate * (end.value - start.value);
+}
+
+/// s theta_n / Delta t, the factor of m(E, theta_n) - m(E_n, theta_n) in the heat.
+inline double factor_of_start(const ThermalPoint& at_start, const HeatWeights& weights) {
+  return weights.at_start() * at_start.temperature / at_start.time_step;
 }
 
 }  // namespace mortise

@@ -39,11 +39,12 @@ const double root = std::sqrt(1.5);
 
 }  // namespace
 
-ThermalJ2Law::ThermalJ2Law(const MaterialOptions& material)
+ThermalJ2Law::ThermalJ2Law(const MaterialOptions& material, double share_at_start)
     : constants_(material),
       hardening_(std::get<FiniteJ2>(material.law()).hardening),
       heat_share_(material.thermal.plastic_heat_share.value_or(ThermomechanicalProperties::usual_plastic_heat_share)),
-      softens_(material.thermal.yield_stress_factor.is_given()) {}
+      softens_(material.thermal.yield_stress_factor.is_given()),
+      weights_(share_at_start) {}
 
 FiniteJ2 ThermalJ2Law::law_at(const ConstantsAtTemperature& constants) const {
   FiniteJ2 law(constants.elastic(), hardening_);
@@ -59,6 +60,36 @@ void ThermalJ2Law::start(double* state) const {
   std::fill_n(state, state_size(), 0.0);
   pack({}, state);
   if (constants_.thermoelastic_heating()) std::fill_n(state + stretches_start(), 3, 1.0);
+  if (has_start()) weights_.start(state + temperatures_start());
+}
+
+void ThermalJ2Law::begin(const ThermalPoint& at, double* state) const {
+  if (has_start()) weights_.remember(at, state + temperatures_start());
+}
+
+std::optional<std::string> ThermalJ2Law::fault(const ThermalPoint& at, const double* state) const {
+  std::optional<std::string> result = constants_.fault(at);
+  return result || !has_start() ? result : constants_.fault(with_start(at, state));
+}
+
+double ThermalJ2Law::mean_yield_factor(const ConstantsAtTemperature& end, const ThermalPoint& at, const double* state) const {
+  if (!has_start()) return end.yield_factor.value;
+  return weights_.at_end() * end.yield_factor.value + weights_.at_start() * constants_.at(with_start(at, state), 0).yield_factor.value;
+}
+
+ThermalJ2Law::HeatOfStart ThermalJ2Law::heat_of_start(const ThermalPoint& at, const double* state, const Eigen::Vector3d& strain) const {
+  const ThermalPoint then = with_start(at, state);
+  const ConstantsAtTemperature constants = constants_.at(then, constants_.thermoelastic_heating() ? 1 : 0);
+  HeatOfStart result;
+  result.valid = constants.valid;
+  if (!result.valid) return result;
+  result.by_flow = weights_.at_start() * heat_share_ / at.time_step * constants.yield_factor.value * yield_stress(hardening_, state[6]);
+  if (!constants_.thermoelastic_heating()) return result;
+  const double factor = factor_of_start(then, weights_);
+  const PrincipalEnergySlope end = energy_slope(constants, strain.array() + constants.expansion.value);
+  result.thermoelastic = factor * (end.m.value - energy_slope(constants, strain_at_start(constants, state)).m.value);
+  result.by_strain = factor * end.by_strain;
+  return result;
 }
 
 ThermalForces ThermalJ2Law::forces(const ThermalPoint& at, const double* state) const {
@@ -70,11 +101,16 @@ ThermalForces ThermalJ2Law::forces(const ThermalPoint& at, const double* state) 
   const FiniteJ2::Return end = law.return_to_yield_surface(elastic_deformation<false>(at.F, constants.expansion.value), unpack(state));
   result.stress = law.kirchhoff(end);
   if (const double x = end.increment.strain; x > 0.0)
-    result.heat += heat_share_ / at.time_step * law.yield_factor * yield_stress(hardening_, state[6] + x) * x;
+    result.heat += weights_.at_end() * heat_share_ / at.time_step * law.yield_factor * yield_stress(hardening_, state[6] + x) * x;
+  const Eigen::Vector3d strain = FiniteJ2::elastic_strain(end);
   if (thermoelastic)
-    result.heat +=
-        at.temperature / at.time_step *
-        (energy_slope(constants, FiniteJ2::elastic_strain(end)).m.value - energy_slope(constants, strain_at_start(constants, state)).m.value);
+    result.heat += weights_.at_end() * at.temperature / at.time_step *
+                   (energy_slope(constants, strain).m.value - energy_slope(constants, strain_at_start(constants, state)).m.value);
+  if (has_start()) {
+    const HeatOfStart start = heat_of_start(at, state, strain.array() - constants.expansion.value);
+    if (!start.valid) return {};
+    result.heat += start.by_flow * end.increment.strain + start.thermoelastic;
+  }
   return result;
 }
 
@@ -100,7 +136,7 @@ ThermalResponse ThermalJ2Law::respond(const ThermalPoint& at, const double* stat
     const double curve = yield_stress(hardening_, state[6] + x), yield = law.yield_factor * curve;
     x_by_n = 2.0 * G.value * root / stiffness;
     x_by_temperature = (q * G.slope / G.value - 3.0 * G.slope * x - constants.yield_factor.slope * curve) / stiffness;
-    const double rate = heat_share_ / at.time_step, by_x = rate * (yield + end.increment.slope * x);
+    const double rate = weights_.at_end() * heat_share_ / at.time_step, by_x = rate * (yield + end.increment.slope * x);
     result.heat += rate * yield * x;
     result.heat_by_gradient += by_x * x_by_n * in_axes_of(end.trial, n);
     result.heat_by_temperature += by_x * x_by_temperature + rate * constants.yield_factor.slope * curve * x;
@@ -115,7 +151,16 @@ ThermalResponse ThermalJ2Law::respond(const ThermalPoint& at, const double* stat
     const double along = root * slope.by_strain.dot(n);
     slope.m.by_gradient = in_axes_of(end.trial, slope.by_strain - along * x_by_n * n);
     slope.m.by_temperature -= along * x_by_temperature;
-    add_thermoelastic_heat(at, slope.m, energy_slope(constants, strain_at_start(constants, state)).m, result);
+    add_thermoelastic_heat(at, weights_.at_end(), slope.m, energy_slope(constants, strain_at_start(constants, state)).m, result);
+  }
+  if (has_start()) {
+    // It depends on F and theta by x and the strain of the end alone.
+    const HeatOfStart start = heat_of_start(at, state, strain.array() - constants.expansion.value);
+    if (!start.valid) return {};
+    const double by_x = start.by_flow - root * start.by_strain.dot(n);
+    result.heat += start.by_flow * x + start.thermoelastic;
+    result.heat_by_gradient += in_axes_of(end.trial, start.by_strain + by_x * x_by_n * n);
+    result.heat_by_temperature += by_x * x_by_temperature;
   }
   return result;
 }
@@ -130,7 +175,7 @@ ThermalOutput ThermalJ2Law::output(const ThermalPoint& at, const double* state) 
   result.energy = law.elastic.energy(FiniteJ2::elastic_strain(end));
   result.equivalent_plastic_strain = state[6] + end.increment.strain;
   const double work = plastic_work(hardening_, result.equivalent_plastic_strain);
-  result.plastic_work = softens_ ? state[work_place] + law.yield_factor * (work - plastic_work(hardening_, state[6])) : work;
+  result.plastic_work = softens_ ? state[work_place] + mean_yield_factor(constants, at, state) * (work - plastic_work(hardening_, state[6])) : work;
   return result;
 }
 
@@ -140,14 +185,15 @@ void ThermalJ2Law::update(const ThermalPoint& at, double* state) const {
   const FiniteJ2::State start = unpack(state);
   const Matrix3 F = elastic_deformation<false>(at.F, constants.expansion.value);
   const FiniteJ2::State end = law.updated(F, start);
-  // The yield stress of the end's temperature over the curve: the work of a step at one temperature is exact.
+  // The mean factor of the yield stress over the curve: the work of a step at one temperature is exact.
   if (softens_)
-    state[work_place] +=
-        law.yield_factor * (plastic_work(hardening_, end.equivalent_plastic_strain) - plastic_work(hardening_, start.equivalent_plastic_strain));
+    state[work_place] += mean_yield_factor(constants, at, state) *
+                         (plastic_work(hardening_, end.equivalent_plastic_strain) - plastic_work(hardening_, start.equivalent_plastic_strain));
   if (constants_.thermoelastic_heating())
     Eigen::Map<Eigen::Array3d>(state + stretches_start()) =
         (FiniteJ2::elastic_strain(law.return_to_yield_surface(F, start)).array() - constants.expansion.value).exp();
   pack(end, state);
+  begin(at, state);  // the next step
 }
 
 }  // namespace mortise

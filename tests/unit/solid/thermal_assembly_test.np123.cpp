@@ -58,10 +58,10 @@ Assembled assemble(const RCP<const Communicator>& comm, const ThermalSetup& setu
 
 class ThermalAssembly : public testing::TestWithParam<ThermalSetup> {};
 INSTANTIATE_TEST_SUITE_P(Ranks, ThermalAssembly,
-                         testing::Values(ThermalSetup{ElementType::h8_f_bar, "j2 plasticity", Kinematics::three_dimensional},
+                         testing::Values(ThermalSetup{ElementType::h8_f_bar, "j2 plasticity", Kinematics::three_dimensional, true, 0.5},
                                          ThermalSetup{ElementType::tet4, "hencky", Kinematics::three_dimensional},
                                          ThermalSetup{ElementType::q4_f_bar, "j2 plasticity", Kinematics::axisymmetric},
-                                         ThermalSetup{ElementType::t3, "neo hooke", Kinematics::plane_stress}));
+                                         ThermalSetup{ElementType::t3, "neo hooke", Kinematics::plane_stress, true, 0.5}));
 
 TEST_P(ThermalAssembly, AgreesWithOneRank) {
   const Assembled one = assemble(self(), GetParam()), shared = assemble(world(), GetParam());

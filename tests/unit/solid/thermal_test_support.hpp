@@ -41,6 +41,7 @@ struct ThermalSetup {
   std::string law = "hencky";
   Kinematics kinematics = Kinematics::plane_strain;
   bool everything = true;
+  double heat_at_start = 0.0;  ///< share of the start of a step in its heat
 };
 
 inline RCP<const Mesh> make_thermal_mesh(const RCP<const Communicator>& comm, const ThermalSetup& setup) {
@@ -54,15 +55,6 @@ inline RCP<const Mesh> make_thermal_mesh(const RCP<const Communicator>& comm, co
   plane.element = setup.element;
   plane.kinematics = setup.kinematics;
   return make_test_mesh(comm, plane);
-}
-
-inline std::shared_ptr<Bodies> make_thermal_bodies(const std::shared_ptr<const FieldSpace>& space, const ThermalSetup& setup) {
-  return std::make_shared<Bodies>(space, setup.kinematics, 0.7,
-                                  std::vector<BodyProperties>{{"body", {}, make_thermal_material(setup.law, setup.everything), setup.element}});
-}
-
-inline std::shared_ptr<Bodies> make_thermal_bodies(const ThermalSetup& setup) {
-  return make_thermal_bodies(thermal_space(make_thermal_mesh(self(), setup)), setup);
 }
 
 using Temperature = std::function<double(const Point3&)>;
@@ -95,6 +87,19 @@ inline Temperature warm(double mean) {
 
 inline const Temperature at_reference = [](const Point3&) { return reference_temperature; };
 inline const SpaceField at_rest = [](const Point3&) -> Point3 { return {}; };
+
+/// At rest, at the reference temperature.
+inline std::shared_ptr<Bodies> make_thermal_bodies(const std::shared_ptr<const FieldSpace>& space, const ThermalSetup& setup) {
+  const auto bodies = std::make_shared<Bodies>(
+      space, setup.kinematics, 0.7, std::vector<BodyProperties>{{"body", {}, make_thermal_material(setup.law, setup.everything), setup.element}},
+      setup.heat_at_start);
+  bodies->begin(thermal_state(*bodies, at_rest, at_reference));
+  return bodies;
+}
+
+inline std::shared_ptr<Bodies> make_thermal_bodies(const ThermalSetup& setup) {
+  return make_thermal_bodies(thermal_space(make_thermal_mesh(self(), setup)), setup);
+}
 
 constexpr double step_length = 0.25;
 

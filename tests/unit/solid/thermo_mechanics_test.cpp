@@ -15,7 +15,7 @@ std::vector<ThermalSetup> every_setup() {
     for (const auto& [kinematics_name, kinematics] : kinematics_names())
       for (const auto& material : material_registry().entries()) {
         if (!check_combination({"body", {}, make_material(material.name), element}, kinematics).empty()) continue;
-        setups.push_back({element, material.name, kinematics, true});
+        for (const double heat_at_start : {0.0, 0.5}) setups.push_back({element, material.name, kinematics, true, heat_at_start});
         if (material.name == "hencky") setups.push_back({element, material.name, kinematics, false});
       }
   return setups;
@@ -24,6 +24,7 @@ std::vector<ThermalSetup> every_setup() {
 std::string setup_name(const testing::TestParamInfo<ThermalSetup>& info) {
   std::string name = to_string(info.param.element) + "_" + info.param.law + "_" + to_string(info.param.kinematics);
   if (!info.param.everything) name += "_expansion";
+  if (info.param.heat_at_start > 0.0) name += "_trapezoidal";
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return name;
@@ -189,6 +190,22 @@ TEST(PlasticHeat, IsTheShareOfThePlasticPower) {
   EXPECT_GT(expected, 0.0);
   EXPECT_NEAR(bodies->heat_powers(x, step_length)[0], expected, 1e-12 * expected);
   EXPECT_EQ(bodies->heat_powers(x, Bodies::without_rates)[0], 0.0);
+}
+
+// Half of the heat is that of a step at the temperatures of its start, as long as nothing flows.
+TEST(ThermoelasticHeat, HasTheShareOfTheTemperaturesOfTheStart) {
+  for (const auto& [element, kinematics] :
+       {std::pair(ElementType::q8, Kinematics::plane_strain), std::pair(ElementType::q4_f_bar, Kinematics::axisymmetric),
+        std::pair(ElementType::h8_f_bar, Kinematics::three_dimensional)}) {
+    const auto heat = [&, element = element, kinematics = kinematics](double share, const Temperature& before, const Temperature& after) {
+      const auto bodies = make_thermal_bodies({element, "hencky", kinematics, true, share});
+      bodies->begin(thermal_state(*bodies, at_rest, before));
+      return bodies->heat_powers(thermal_state(*bodies, stretched(1.0), after), step_length)[0];
+    };
+    const double cold = heat(0.0, warm(310.0), warm(310.0)), hot = heat(0.0, warm(350.0), warm(350.0));
+    EXPECT_GT(std::abs(hot - cold), 0.01 * std::abs(hot));
+    EXPECT_NEAR(heat(0.5, warm(310.0), warm(350.0)), 0.5 * (cold + hot), 1e-12 * std::abs(hot));
+  }
 }
 
 TEST(ThermalBodies, KnowNoTemperatureWithoutTheField) {

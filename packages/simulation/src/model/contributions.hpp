@@ -51,6 +51,9 @@ class BulkContribution final : public CountedContribution {
   void commit(const Configuration& at) override;
   void serialize(StateArchive& archive) override;
 
+  /// The state from which the first step starts.
+  void begin(const Configuration& at) { bodies_->begin(at.local_unknowns); }
+
   /// Mean power of the last step that became heat [mesh bodies]; empty: bodies do not heat.
   const std::vector<double>& heat_power() const { return power_; }
   /// Since the start.

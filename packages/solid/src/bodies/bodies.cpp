@@ -62,8 +62,14 @@ std::shared_ptr<const FieldSpace> displacement_space(RCP<const Mesh> mesh) {
   return std::make_shared<FieldSpace>(std::move(mesh), std::vector<FieldDeclaration>{{"displacement", dimension}});
 }
 
-Bodies::Bodies(std::shared_ptr<const FieldSpace> space, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies)
-    : space_(std::move(space)), mesh_(space_->mesh()), kinematics_(kinematics), thickness_(thickness), properties_(std::move(bodies)) {
+Bodies::Bodies(std::shared_ptr<const FieldSpace> space, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies,
+               double heat_at_start)
+    : space_(std::move(space)),
+      mesh_(space_->mesh()),
+      kinematics_(kinematics),
+      thickness_(thickness),
+      properties_(std::move(bodies)),
+      heat_at_start_(heat_at_start) {
   if (properties_.size() != mesh_->blocks.size()) throw std::logic_error("properties and blocks of the mesh do not match");
   std::vector<Diagnostic> diagnostics;
   for (std::size_t n = 0; n < properties_.size(); ++n) {
@@ -83,7 +89,7 @@ Bodies::Bodies(std::shared_ptr<const FieldSpace> space, Kinematics kinematics, d
       blocks_.push_back(std::make_unique<RigidBlock>());
       continue;
     }
-    blocks_.push_back(make_element_block(context, properties_[n], kinematics_, thickness_, temperatures[n]));
+    blocks_.push_back(make_element_block(context, properties_[n], kinematics_, thickness_, temperatures[n], heat_at_start_));
     know_temperature_ = know_temperature_ || temperatures[n];
     const auto [element, determinant] = blocks_.back()->smallest_reference_determinant();
     if (!(determinant > 0.0))
@@ -140,6 +146,12 @@ std::vector<double> Bodies::masses() const {
   for (std::size_t node = 0; node < of_nodes.size(); ++node) mine[mesh_->body_of_node[node]] += of_nodes[node];
   Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
   return all;
+}
+
+void Bodies::begin(const Vector& local_unknowns) {
+  if (heat_at_start_ == 0.0) return;
+  const HostReadView unknowns(local_unknowns);
+  for (const auto& block : blocks_) block->begin(unknowns.data());
 }
 
 void Bodies::commit(const Vector& local_displacement) {

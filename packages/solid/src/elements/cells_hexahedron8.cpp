@@ -10,8 +10,10 @@ template std::unique_ptr<ElementBlock> make_cell_block<Hexahedron8, ElementFormu
                                                                                                   double);
 template std::unique_ptr<ElementBlock> make_cell_block<Hexahedron8, ElementFormulation::f_bar>(const BlockContext&, const Law&, Kinematics, double);
 template std::unique_ptr<ElementBlock> make_thermal_block<Hexahedron8, ElementFormulation::standard>(const BlockContext&, std::size_t,
-                                                                                                     const MaterialOptions&, Kinematics, double);
+                                                                                                     std::unique_ptr<const ThermalLaw>, Kinematics,
+                                                                                                     double);
 template std::unique_ptr<ElementBlock> make_thermal_block<Hexahedron8, ElementFormulation::f_bar>(const BlockContext&, std::size_t,
-                                                                                                  const MaterialOptions&, Kinematics, double);
+                                                                                                  std::unique_ptr<const ThermalLaw>, Kinematics,
+                                                                                                  double);
 
 }  // namespace mortise

@@ -8,6 +8,7 @@ namespace mortise {
 
 template std::unique_ptr<ElementBlock> make_cell_block<Triangle6, ElementFormulation::standard>(const BlockContext&, const Law&, Kinematics, double);
 template std::unique_ptr<ElementBlock> make_thermal_block<Triangle6, ElementFormulation::standard>(const BlockContext&, std::size_t,
-                                                                                                   const MaterialOptions&, Kinematics, double);
+                                                                                                   std::unique_ptr<const ThermalLaw>, Kinematics,
+                                                                                                   double);
 
 }  // namespace mortise

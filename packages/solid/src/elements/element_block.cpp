@@ -33,11 +33,12 @@ StepFailure without_stress(const BlockContext& context, LocalOrdinal element, in
 }
 
 std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness,
-                                                 std::optional<std::size_t> temperature) {
+                                                 std::optional<std::size_t> temperature, double heat_at_start) {
   return visit_element(body.element, [&](const auto& entry) {
     using Entry = std::decay_t<decltype(entry)>;
     if (temperature)
-      return make_thermal_block<typename Entry::Cell, Entry::formulation>(context, *temperature, *body.material, kinematics, thickness);
+      return make_thermal_block<typename Entry::Cell, Entry::formulation>(
+          context, *temperature, make_thermal_law(*body.material, kinematics == Kinematics::plane_stress, heat_at_start), kinematics, thickness);
     return make_cell_block<typename Entry::Cell, Entry::formulation>(context, body.material->law(), kinematics, thickness);
   });
 }

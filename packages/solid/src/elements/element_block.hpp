@@ -42,6 +42,8 @@ class ElementBlock {
   virtual double heat(const double* /*unknowns*/, double /*time_step*/, LocalOrdinal /*count*/) const { return 0.0; }
   /// Points of the first `count` elements.
   virtual void visit_points(const double* unknowns, LocalOrdinal count, const std::function<void(const MaterialPoint&)>& visit) const = 0;
+  /// See Bodies::begin(); by default nothing depends on it.
+  virtual void begin(const double* /*unknowns*/) {}
   virtual void commit(const double* unknowns) = 0;
   /// The history of the last committed step, by the ids of the elements.
   virtual void serialize(StateArchive& archive, const std::string& name) = 0;
@@ -59,7 +61,8 @@ class ElementBlock {
 
 /// The block of elements that `body` asks for; check_combination() has to accept it.
 /// @param temperature  the field that the law takes, which lives on all nodes of the block; none: the law knows no temperature
+/// @param heat_at_start  s of ThermalLaw
 std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness,
-                                                 std::optional<std::size_t> temperature);
+                                                 std::optional<std::size_t> temperature, double heat_at_start);
 
 }  // namespace mortise

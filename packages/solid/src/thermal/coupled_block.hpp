@@ -58,6 +58,12 @@ class CoupledBlock final : public ReferenceBlock<Cell, kinematics == Kinematics:
     }
   }
 
+  void begin(const double* unknowns) override {
+    if (memory_.exists())
+      for (LocalOrdinal element = 0; element < context().block.size(); ++element)
+        mechanics_.begin(points_of(element, unknowns), memory_of(memory_, element));
+  }
+
   void commit(const double* unknowns) override {
     count_history_evaluation();
     if (memory_.exists())
@@ -100,7 +106,8 @@ class CoupledBlock final : public ReferenceBlock<Cell, kinematics == Kinematics:
       failure.emplace(inverted(context(), element, trouble.determinant));
       return;
     }
-    const std::string fault = law_->fault(trouble.at).value_or(fmt::format("the law \"{}\" finds no stress", law_->name()));
+    const std::string fault =
+        law_->fault(trouble.at, memory_.at(element, trouble.point)).value_or(fmt::format("the law \"{}\" finds no stress", law_->name()));
     failure.emplace(without_stress(context(), element, trouble.point, trouble.determinant, fault));
   }
 
@@ -117,10 +124,9 @@ class CoupledBlock final : public ReferenceBlock<Cell, kinematics == Kinematics:
 };
 
 template <class Cell, ElementFormulation formulation>
-std::unique_ptr<ElementBlock> make_thermal_block(const BlockContext& context, std::size_t temperature, const MaterialOptions& material,
+std::unique_ptr<ElementBlock> make_thermal_block(const BlockContext& context, std::size_t temperature, std::unique_ptr<const ThermalLaw> law,
                                                  Kinematics kinematics, double thickness) {
   constexpr bool f_bar = formulation == ElementFormulation::f_bar;
-  std::unique_ptr<const ThermalLaw> law = make_thermal_law(material, kinematics == Kinematics::plane_stress);
   if constexpr (Cell::dimension == 3) {
     if (kinematics == Kinematics::three_dimensional)
       return std::make_unique<CoupledBlock<Cell, Kinematics::three_dimensional, formulation>>(context, temperature, std::move(law), thickness);

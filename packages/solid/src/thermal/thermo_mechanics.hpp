@@ -105,6 +105,13 @@ class ThermoMechanics {
     return sum;
   }
 
+  /// Gives the points the state from which the first step starts.
+  template <class Memory>
+  void begin(const Points& points, const Memory& memory) const {
+    const auto centre = centre_of(points);
+    for (int q = 0; q < point_count; ++q) law_.begin(asked_at(points[q], centre, Bodies::without_rates), memory(q));
+  }
+
   /// What the points remember if the step that ends here is accepted.
   template <class Memory>
   void commit(const Points& points, const Memory& memory) const {

@@ -69,6 +69,12 @@ struct ThermalOutput : ThermalForces {
 /// with the accumulated plastic strain alpha_p. The second part is theta (d tau/d theta) : d_e in the limit of short steps; it is unchanged by
 /// rotations, as it takes differences of a function of elastic stretches. Source: Simo, Miehe 1992, CMAME 98.
 ///
+/// With the share s of the start of a step
+///   H = chi ((1 - s) sigma_y(alpha_p, theta) + s sigma_y(alpha_p,n, theta_n)) Delta alpha_p / Delta t
+///       + ((1 - s) theta (m(E, theta) - m(E_n, theta)) + s theta_n (m(E, theta_n) - m(E_n, theta_n))) / Delta t,
+/// where m(E, theta) = d psi/d theta and E is F without plastic flow: elastic and thermal strain. Both parts are integrals over the step, of
+/// chi sigma_y d alpha_p and of theta (dm/dE) : dE, of which s = 1/2 takes the trapezoidal rule: of second order.
+///
 /// A point remembers state_size() numbers, which the caller keeps.
 class ThermalLaw {
  public:
@@ -79,18 +85,21 @@ class ThermalLaw {
   virtual bool heats() const = 0;               ///< H may differ from 0
   virtual int state_size() const = 0;           ///< numbers of a point's memory; 0: none
   virtual void start(double* state) const = 0;  ///< puts there the memory of a point that never was deformed, [state_size()]
+  /// Puts there the temperatures at which the first step starts, which heat with a share of the start needs.
+  virtual void begin(const ThermalPoint& at, double* state) const = 0;
   virtual ThermalForces forces(const ThermalPoint& at, const double* state) const = 0;
   virtual ThermalResponse respond(const ThermalPoint& at, const double* state) const = 0;
   virtual ThermalOutput output(const ThermalPoint& at, const double* state) const = 0;
   /// Moves the memory on to the end of a step that is accepted.
   virtual void update(const ThermalPoint& at, double* state) const = 0;
-  /// Property without meaning at these temperatures, with its value and what is allowed; none: all have one.
-  virtual std::optional<std::string> fault(const ThermalPoint& at) const = 0;
+  /// Property without meaning at the temperatures of a step, with its value and what is allowed; none: all have one.
+  virtual std::optional<std::string> fault(const ThermalPoint& at, const double* state) const = 0;
 };
 
 /// The law of a material whose ThermomechanicalProperties::given().
 /// @param plane_stress  the law finds F_33 from tau_33 = 0; it needs a law with a plane stress form
+/// @param share_at_start  s of the heat, 0 <= s < 1
 /// @throws std::invalid_argument without a reference temperature, or for plane stress of a law that has no such form
-std::unique_ptr<const ThermalLaw> make_thermal_law(const MaterialOptions& material, bool plane_stress);
+std::unique_ptr<const ThermalLaw> make_thermal_law(const MaterialOptions& material, bool plane_stress, double share_at_start = 0.0);
 
 }  // namespace mortise

@@ -211,6 +211,7 @@ void begin_heat(const Model& model, const Vector& unknowns) {
   Vector local(model.space().local_dofs());
   local.doImport(unknowns, *model.space().ghost_import(), Tpetra::INSERT);
   const Configuration start{0.0, unknowns, local};
+  if (heat.bulk) heat.bulk->begin(start);
   if (heat.stored) heat.stored->begin(start);
   heat.conduction->begin(start);
   for (const auto& source : heat.sources) source->begin(start);

@@ -30,7 +30,10 @@ std::function<NearNullSpace(const Vector&)> near_null_space_of(const std::shared
 
 SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timers& timers, Collector& collect) {
   SolidModel solid;
-  const auto bodies = std::make_shared<Bodies>(meshed.space, scene.kinematics, scene.thickness, block_properties(scene, *meshed.mesh));
+  // Flows that the system does not weigh are weighed where they are computed.
+  const FlowsAtStart at_start = flows_at_start(scene);
+  const double heat_at_start = at_start.is_of_system ? 0.0 : at_start.share;
+  const auto bodies = std::make_shared<Bodies>(meshed.space, scene.kinematics, scene.thickness, block_properties(scene, *meshed.mesh), heat_at_start);
   solid.bodies = bodies;
   SystemParts& parts = solid.parts;
   parts.dofs = meshed.space->dofs();
@@ -38,7 +41,6 @@ SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timer
   parts.bulk_graph = [space = meshed.space] { return space->graph(); };
   parts.length = meshed.size.length;
   parts.near_null_space = near_null_space_of(bodies, meshed, scene);
-  const FlowsAtStart at_start = flows_at_start(scene);
   const std::optional<double> share =
       scene.heat.acts() && !scene.heat.is_transient() ? std::nullopt : std::optional(at_start.is_of_system ? at_start.share : 0.0);
   const auto bulk = std::make_shared<BulkContribution>(bodies, share, timers);

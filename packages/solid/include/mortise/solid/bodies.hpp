@@ -51,9 +51,11 @@ class Bodies {
   static constexpr double without_rates = std::numeric_limits<double>::infinity();
 
   /// The first field of `space` are the displacements. `thickness` [length] counts for the plane kinematics. One entry of `bodies` for each block of
-  /// the mesh, in its order.
+  /// the mesh, in its order. `heat_at_start`: share of the temperatures at the start of a step in its heat, s of ThermalLaw; with one, begin() has
+  /// to be called before the first step.
   /// Collective. Throws InputError for combinations without meaning and for reference elements with det J <= 0, naming the body at its place.
-  Bodies(std::shared_ptr<const FieldSpace> space, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies);
+  Bodies(std::shared_ptr<const FieldSpace> space, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies,
+         double heat_at_start = 0.0);
   ~Bodies();
   Bodies(const Bodies&) = delete;
   Bodies& operator=(const Bodies&) = delete;
@@ -112,6 +114,9 @@ class Bodies {
 
   /// Mass of each body of the mesh, summed over all ranks; 0 for rigid ones. Collective.
   std::vector<double> masses() const;
+
+  /// The state from which the first step starts: its temperatures.
+  void begin(const Vector& local_unknowns);
 
   /// The step that ended at this displacement is accepted: material points with a history move on to it. Everything else that is asked for at a
   /// displacement takes it as the end of a step from the last committed one.
@@ -172,6 +177,7 @@ class Bodies {
   std::vector<std::unique_ptr<ElementBlock>> blocks_;
   std::vector<double> point_masses_;
   bool know_temperature_ = false;
+  double heat_at_start_;
 };
 
 /// The rigid body modes about the current configuration, on the owned dofs. Collective.

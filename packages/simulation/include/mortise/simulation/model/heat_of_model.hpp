@@ -19,7 +19,7 @@ class ContactHeatBook;
 struct HeatOfModel {
   std::shared_ptr<const ThermalBodies> bodies;               ///< null: the scene has no temperature
   std::shared_ptr<const PrescribedTemperatures> prescribed;  ///< with bodies
-  std::shared_ptr<const BulkContribution> bulk;              ///< null: deformation does not heat
+  std::shared_ptr<BulkContribution> bulk;                    ///< null: deformation does not heat
   std::shared_ptr<BookedHeat> stored;                        ///< null: a steady analysis
   std::shared_ptr<BookedHeat> conduction;                    ///< with bodies
   std::vector<std::shared_ptr<BookedHeat>> sources;          ///< of volumes and, by their names, of surfaces
