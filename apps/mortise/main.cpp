@@ -30,6 +30,7 @@ constexpr const char* examples = R"(Examples:
   mortise paper -o page                                      every example of the paper, one page with its figures and tables
   mortise hard -o hard                                       the ledger of hard cases: which end right, which wrong
   mortise picture results/hertz_elastic                      the last step, deformed, coloured by stress
+  mortise compare results/one results/other                  quantities, histories and fields of two runs
   mortise export results/hertz_elastic                       mesh and fields of all steps as an Exodus file
   mortise describe contact                                   every parameter with default, unit and meaning
   mortise list materials
@@ -143,6 +144,7 @@ int main(int argc, char** argv) {
   mortise::add_scale_command(app, program);
   mortise::add_peer_command(app, program);
   mortise::add_picture_command(app, program);
+  mortise::add_compare_command(app, program);
   mortise::add_export_command(app, program);
   mortise::add_describe_command(app, program);
   mortise::add_list_command(app, program);

@@ -43,6 +43,7 @@ void add_run_command(CLI::App& app, Program& program);
 void add_check_command(CLI::App& app, Program& program);
 void add_point_command(CLI::App& app, Program& program);
 void add_picture_command(CLI::App& app, Program& program);
+void add_compare_command(CLI::App& app, Program& program);
 void add_export_command(CLI::App& app, Program& program);
 void add_describe_command(CLI::App& app, Program& program);
 void add_list_command(CLI::App& app, Program& program);
