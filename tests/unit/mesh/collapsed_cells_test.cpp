@@ -14,22 +14,9 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 
-/// The reference positions of a shape in 3D.
-std::vector<std::array<double, 3>> places_of(CellShape shape) {
-  return visit_cell(shape, [](auto kind) {
-    std::vector<std::array<double, 3>> all;
-    for (const auto& node : decltype(kind)::node_positions) {
-      std::array<double, 3> position{};
-      for (std::size_t i = 0; i < node.size(); ++i) position[i] = node[i];
-      all.push_back(position);
-    }
-    return all;
-  });
-}
-
 /// A deck of one cell, whose nodes `onto` (pairs, from 0) are others of it; nodes in the middle of edges lie in the middle. All its sides have sets.
 std::string deck_of(const std::string& type, CellShape shape, const std::vector<std::array<int, 2>>& onto, int sides) {
-  std::vector<std::array<double, 3>> places = places_of(shape);
+  std::vector<std::array<double, 3>> places = reference_nodes(shape);
   std::vector<int> label(places.size());
   for (std::size_t n = 0; n < label.size(); ++n) label[n] = static_cast<int>(n);
   for (const auto& [from, to] : onto) {

@@ -21,19 +21,6 @@ struct OneElement {
 
 inline void PrintTo(const OneElement& one, std::ostream* stream) { *stream << one.type; }
 
-/// Positions of the nodes of a reference cell, in 3D.
-inline std::vector<std::array<double, 3>> reference_nodes(CellShape shape) {
-  return visit_cell(shape, [](auto kind) {
-    std::vector<std::array<double, 3>> all;
-    for (const auto& node : decltype(kind)::node_positions) {
-      std::array<double, 3> position{};
-      for (std::size_t i = 0; i < node.size(); ++i) position[i] = node[i];
-      all.push_back(position);
-    }
-    return all;
-  });
-}
-
 /// Settings of a file in the making: changes of it, to be refused.
 struct Exodus {
   int mode = EX_CLOBBER;
@@ -109,6 +96,18 @@ inline std::vector<int> as_it_is(int nodes) {
   std::vector<int> order(static_cast<std::size_t>(nodes));
   for (int n = 0; n < nodes; ++n) order[static_cast<std::size_t>(n)] = n;
   return order;
+}
+
+/// Nodes of each side of side set 50, from 1, as Exodus' library lists them: one after the other.
+inline std::vector<int> nodes_of_sides(std::size_t sides, std::vector<int>& counts) {
+  int real = sizeof(double), in_file = 0;
+  float version = 0.0F;
+  const int id = ex_open(mesh_file_folder().path("a.exo").c_str(), EX_READ, &real, &in_file, &version);
+  counts.assign(sides, 0);
+  std::vector<int> nodes(sides * 9);
+  EXPECT_EQ(ex_get_side_set_node_list(id, 50, counts.data(), nodes.data()), 0);
+  ex_close(id);
+  return nodes;
 }
 
 inline Exodus cube() {

@@ -59,6 +59,19 @@ inline std::string refusal_of(const std::string& name, const std::string& bytes)
   return "no error";
 }
 
+/// Positions of the nodes of a reference cell, in 3D.
+inline std::vector<std::array<double, 3>> reference_nodes(CellShape shape) {
+  return visit_cell(shape, [](auto kind) {
+    std::vector<std::array<double, 3>> all;
+    for (const auto& node : decltype(kind)::node_positions) {
+      std::array<double, 3> position{};
+      for (std::size_t i = 0; i < node.size(); ++i) position[i] = node[i];
+      all.push_back(position);
+    }
+    return all;
+  });
+}
+
 template <class Member>
 const FileSet<Member>& set_named(const std::vector<FileSet<Member>>& sets, const std::string& name) {
   for (const auto& set : sets)
