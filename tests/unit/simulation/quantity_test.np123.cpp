@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mortise/input/read_parameters.hpp"
@@ -43,7 +45,31 @@ TEST(Quantity, StressOfUniformStrain) {
       std::sqrt(0.5 * (std::pow(stress_xx - stress_yy, 2) + std::pow(stress_yy - stress_zz, 2) + std::pow(stress_zz - stress_xx, 2)) +
                 3.0 * stress_xy * stress_xy);
   EXPECT_NEAR(blocks.value(field<Extremum>(PointField::von_mises, "")), von_mises, 1e-13);
+  // Mohr's circle; zz is a principal stress of its own.
+  const double middle = 0.5 * (stress_xx + stress_yy), radius = std::hypot(0.5 * (stress_xx - stress_yy), stress_xy);
+  std::array<double, 3> principal{middle + radius, middle - radius, stress_zz};
+  std::sort(principal.begin(), principal.end());
+  EXPECT_NEAR(blocks.value(field<Extremum>(PointField::largest_principal_stress, "")), principal[2], 1e-13);
+  EXPECT_NEAR(blocks.value(field<Mean>(PointField::middle_principal_stress, "upper")), principal[1], 1e-13);
+  EXPECT_NEAR(blocks.value(field<Extremum>(PointField::smallest_principal_stress, "lower")), principal[0], 1e-13);
   EXPECT_LT(blocks.value(*quantity("spread")), 1e-12);
+}
+
+// Two corners are moved alike but for round-off: the place is that of the smaller coordinates, whichever has more.
+TEST(Quantity, PlaceOfAnExtremumDoesNotDependOnRoundOff) {
+  for (const double more : {1e-12, -1e-12}) {
+    TwoBlocks blocks;
+    blocks.move([&](int body, const Point& X) {
+      if (body == 0 || X[1] < 2.0) return Point{0.0, 0.0};
+      return Point{0.0, X[0] == 0.0 ? 1.0 : X[0] == width ? 1.0 + more : 0.5};
+    });
+    Extremum extremum = field<Extremum>(PointField::displacement_y, "");
+    EXPECT_NEAR(blocks.value(extremum), 1.0, 1e-11);
+    extremum.gives = Extremum::Gives::x;
+    EXPECT_EQ(blocks.value(extremum), 0.0);
+    extremum.gives = Extremum::Gives::y;
+    EXPECT_EQ(blocks.value(extremum), 2.0);
+  }
 }
 
 // Strain e below and 2 e above, equal volumes: the mean is 1.5 sigma(e), every deviation 0.5 sigma(e).

@@ -74,13 +74,16 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
   SurfaceForceOptions spread;
   spread.set.value = "body/right";
   spread.x = parse_expression("2-t", {});
+  CentrifugalOptions spin;
+  spin.speed = parse_expression("1+t", {});
+  if (dimension == 3) spin.axis = {1.0, 2.0, -1.0};
   FollowerPressureOptions pressure;
   pressure.set.value = "body/surface";
   pressure.pressure = parse_expression("3+x*y", {});
   GravityOptions gravity;
   gravity.y = -9.81;
   if (dimension == 3) nodal.z = traction.z = gravity.z = parse_expression("t", {});
-  for (const LoadOptions* options : std::initializer_list<const LoadOptions*>{&nodal, &traction, &spread, &pressure, &gravity}) {
+  for (const LoadOptions* options : std::initializer_list<const LoadOptions*>{&nodal, &traction, &spread, &spin, &pressure, &gravity}) {
     const auto load = options->make(bodies);
     load->add_residual(0.5, local, residual, failure);
     load->add_jacobian(0.5, local, matrix, failure);

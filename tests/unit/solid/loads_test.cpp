@@ -189,6 +189,30 @@ TEST(Gravity, HasTheWeightOfTheBody) {
   }
 }
 
+// Plane: omega^2 m (x - c) of the centre of mass. Axisymmetric: omega^2 rho times the integral of r 2 pi r dr along r.
+TEST(Centrifugal, HasTheForceOfItsIntegral) {
+  for (const auto& [name, kinematics] : kinematics_names()) {
+    if (dimension(kinematics) == 3) continue;
+    const auto bodies = bodies_of(kinematics);
+    const bool axisymmetric = kinematics == Kinematics::axisymmetric;
+    CentrifugalOptions options;
+    options.speed = parse_expression("3*t", {});
+    if (!axisymmetric) options.point = {1.0, 0.25};
+    const auto load = options.make(bodies);
+    const Eigen::VectorXd f = force(*bodies, *load, Eigen::VectorXd::Zero(local_id_count(*bodies->space().local_dofs())), 0.5);
+    const double x = axisymmetric ? 2.25 * 2.0 * 2.0 * EIGEN_PI * (27.0 - 8.0) / 3.0 : 2.25 * 2.0 * 0.7 * 1.5;
+    EXPECT_NEAR(sum(f, 0), x, 1e-12 * x) << name;
+    EXPECT_NEAR(sum(f, 1), axisymmetric ? 0.0 : 2.25 * 2.0 * 0.7 * 0.25, 1e-12 * x) << name;
+    const Eigen::VectorXd u = bent(*bodies);
+    Matrix matrix(bodies->space().graph());
+    std::optional<StepFailure> failure;
+    load->add_jacobian(2.0, to_local(*bodies, u), matrix, failure);
+    const auto minus_force = [&](const Eigen::VectorXd& v) { return Eigen::VectorXd(-force(*bodies, *load, v, 2.0)); };
+    const Eigen::MatrixXd K = to_dense(matrix);
+    EXPECT_LE((K - central_differences(minus_force, u)).cwiseAbs().maxCoeff(), 1e-6 * K.cwiseAbs().maxCoeff()) << name;
+  }
+}
+
 TEST(Loads, SayWhichSetOrBodyIsMissing) {
   const auto bodies = bodies_of(Kinematics::plane_strain);
   DeadTractionOptions traction;
@@ -224,7 +248,8 @@ TEST(Loads, ReportAnExpressionWithoutAValueAsFailure) {
 TEST(Loads, AreRegistered) {
   std::vector<std::string> names;
   for (const auto& entry : load_registry().entries()) names.push_back(entry.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"nodal force", "surface force", "moment", "dead traction", "follower pressure", "gravity"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"nodal force", "surface force", "moment", "dead traction", "follower pressure", "gravity", "centrifugal"}));
 }
 
 }  // namespace

@@ -151,11 +151,16 @@ TEST(SpaceLoads, FollowerPressureIsTheDerivativeOfPressureTimesVolume) {
   }
 }
 
-template <class Field>
-void expect_follower_tangent(const std::shared_ptr<Bodies>& bodies, const std::string& set, const std::string& pressure, const Field& u) {
-  FollowerPressureOptions options;
-  options.set.value = set;
-  options.pressure = parse_expression(pressure, {});
+std::string refusal(const std::function<void()>& function) {
+  try {
+    function();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_tangent(const std::shared_ptr<Bodies>& bodies, const LoadOptions& options, const Eigen::VectorXd& u) {
   const auto load = options.make(bodies);
   ASSERT_TRUE(load->follows());
   Matrix matrix(bodies->space().graph());
@@ -164,7 +169,15 @@ void expect_follower_tangent(const std::shared_ptr<Bodies>& bodies, const std::s
   ASSERT_FALSE(failure);
   const Eigen::MatrixXd K = to_dense(matrix);
   const auto minus_force = [&](const Eigen::VectorXd& v) { return Eigen::VectorXd(-force(*bodies, *load, v, 2.0)); };
-  EXPECT_LE((K - central_differences(minus_force, u)).cwiseAbs().maxCoeff(), 1e-6 * K.cwiseAbs().maxCoeff()) << set;
+  EXPECT_LE((K - central_differences(minus_force, u)).cwiseAbs().maxCoeff(), 1e-6 * K.cwiseAbs().maxCoeff());
+}
+
+void expect_follower_tangent(const std::shared_ptr<Bodies>& bodies, const std::string& set, const std::string& pressure, const Eigen::VectorXd& u) {
+  SCOPED_TRACE(set);
+  FollowerPressureOptions options;
+  options.set.value = set;
+  options.pressure = parse_expression(pressure, {});
+  expect_tangent(bodies, options, u);
 }
 
 TEST(SpaceLoads, FollowerPressureJacobianIsTheDerivativeOfItsForce) {
@@ -198,6 +211,38 @@ TEST(SidesInThePlane, CarryTractionAndFollowerPressure) {
     }
 }
 
+// On [2, 3] x [0, 1] x [0, 1] with density 2, about the axis through (1, 0.25, 5) along z or along another direction e: omega^2 m P (x - c) of the
+// centre of mass.
+TEST(SpaceLoads, CentrifugalForceIsThatOfTheCentreOfMass) {
+  for (const ElementType element : elements_of(3)) {
+    const auto bodies = brick_of(element, 0.0);
+    const Eigen::VectorXd moved = space_field(*bodies, [](const Point3&) -> Point3 { return {0.1, -0.2, 0.3}; });
+    for (const Eigen::Vector3d& axis : {Eigen::Vector3d(0, 0, -2), Eigen::Vector3d(1, 2, 2)}) {
+      CentrifugalOptions options;
+      options.speed = parse_expression("3*t", {});
+      options.point = {1.0, 0.25, 5.0};
+      options.axis = {axis(0), axis(1), axis(2)};
+      const Eigen::Vector3d e = axis.normalized(), arm = Eigen::Vector3d(2.6, 0.3, 0.8) - Eigen::Vector3d(1.0, 0.25, 5.0);
+      const Eigen::Vector3d expected = 2.25 * 2.0 * (arm - e * e.dot(arm));
+      EXPECT_LE((sum(force(*bodies, *options.make(bodies), moved, 0.5)) - expected).norm(), 1e-12 * expected.norm()) << to_string(element);
+      expect_tangent(bodies, options, bent(*bodies));
+    }
+  }
+}
+
+TEST(SpaceLoads, CentrifugalForceRefusesWhatIsNoAxis) {
+  const auto bodies = brick_of(ElementType::h8, 0.0);
+  CentrifugalOptions options;
+  options.body.place = {"scene.xml", 7, "loads/spin"};
+  EXPECT_NE(refusal([&] { options.make(bodies); }).find("scene.xml:7: error: loads/spin: \"axis\" has to be a direction"), std::string::npos);
+  options.axis = {0.0, 0.0, 1.0};
+  options.point = {0.0, 1.0};
+  EXPECT_NE(refusal([&] { options.make(bodies); }).find("\"point\" has 2 numbers; this 3D model needs 3"), std::string::npos);
+  options.point.clear();
+  options.body.value = "bdy";
+  EXPECT_NE(refusal([&] { options.make(bodies); }).find("there is no body \"bdy\"; the bodies are: body"), std::string::npos);
+}
+
 TEST(SpaceLoads, GravityHasTheWeightOfTheBody) {
   for (const ElementType element : elements_of(3)) {
     const auto bodies = brick_of(element, 0.0);
@@ -206,15 +251,6 @@ TEST(SpaceLoads, GravityHasTheWeightOfTheBody) {
     const Eigen::Vector3d weight = sum(force(*bodies, *options.make(bodies), bent(*bodies), 0.5));
     EXPECT_LE((weight - Eigen::Vector3d(0.0, 0.0, -0.5 * 9.81 * 2.0)).norm(), 1e-12) << to_string(element);
   }
-}
-
-std::string refusal(const std::function<void()>& function) {
-  try {
-    function();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(SpaceLoads, AndConditionsInZAreRefusedInThePlane) {

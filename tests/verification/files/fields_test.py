@@ -154,6 +154,26 @@ class ClosedForms(unittest.TestCase):
             for field, rows in (("logarithmic_strain", body == number), ("nodal_logarithmic_strain", nodes[number])):
                 np.testing.assert_allclose(values[field][rows], np.tile(strain, (len(values[field][rows]), 1)), atol=1e-9)
 
+    def test_principal_stresses_are_those_of_the_tensor(self):
+        names = [f"{which}_principal_{kind}" for which in ("largest", "smallest") for kind in ("stress", "vector")]
+        scene = blocks(["cauchy_stress", *names])
+        scene["loads"]["press"]["pressure"] = "100*t*(1 + x)"
+        values = run("principal", scene).last()
+        sheared = 0
+        for element, (xx, xy, xz, yy, yz, zz) in enumerate(values["cauchy_stress"]):
+            tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            principal = np.linalg.eigvalsh(tensor)
+            sheared += abs(xy) > 1e-3 * abs(yy)
+            for which, expected in (("largest", principal[2]), ("smallest", principal[0])):
+                self.assertAlmostEqual(values[f"{which}_principal_stress"][element], expected, delta=1e-9 * abs(yy))
+                vector = values[f"{which}_principal_vector"][element]
+                if np.linalg.norm(vector) < 1e-9 * abs(yy):  # along z
+                    self.assertAlmostEqual(zz, expected, delta=1e-9 * abs(yy))
+                    continue
+                self.assertAlmostEqual(np.linalg.norm(vector), abs(expected), delta=1e-9 * abs(yy))
+                np.testing.assert_allclose(tensor @ vector, expected * vector, atol=1e-9 * yy * yy)
+        self.assertGreater(sheared, 10)
+
     def test_reactions_sum_up_to_those_of_quantities_and_hold_the_loads(self):
         results = run("blocks", blocks())
         values, mesh, history = results.last(), results.mesh(), results.history()[-1]

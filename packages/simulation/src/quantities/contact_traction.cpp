@@ -43,7 +43,8 @@ std::unique_ptr<QuantityEvaluator> ContactTraction::make_evaluator(const Quantit
     if (!quantity.x) {
       largest = largest_over_ranks(mesh, largest);
       smallest = -largest_over_ranks(mesh, -smallest);
-      return largest >= -smallest ? largest : smallest;
+      // Of a symmetric state both are of one size but for round-off: the positive one.
+      return largest >= -smallest * (1.0 - same_but_for_round_off) ? largest : smallest;
     }
     sum = sum_over_ranks(mesh, sum);
     count = sum_over_ranks(mesh, count);

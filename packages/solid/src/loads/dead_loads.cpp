@@ -173,7 +173,8 @@ const Registry<LoadOptions>& load_registry() {
           .add<MomentOptions>("moment", "a moment on a reference point that rotates")
           .add<DeadTractionOptions>("dead traction", "force per reference area, of fixed direction")
           .add<FollowerPressureOptions>("follower pressure", "pressure on the current surface, against its outward normal")
-          .add<GravityOptions>("gravity", "density times acceleration");
+          .add<GravityOptions>("gravity", "density times acceleration")
+          .add<CentrifugalOptions>("centrifugal", "density times speed of rotation squared times distance from the axis");
   return registry;
 }
 

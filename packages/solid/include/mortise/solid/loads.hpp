@@ -1,10 +1,11 @@
 #pragma once
-// External loads: forces on nodes and surfaces, moments, dead tractions, follower pressures, gravity.
+// External loads: forces on nodes and surfaces, moments, dead tractions, follower pressures, gravity, rotation.
 
 #include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mortise/core/parameters.hpp"
 #include "mortise/solid/bodies.hpp"
@@ -94,7 +95,17 @@ struct GravityOptions : LoadOptions {
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
 
-/// All kinds by name: "nodal force", "surface force", "moment", "dead traction", "follower pressure", "gravity".
+/// The centrifugal force on bodies that turn at a given speed about a fixed axis, seen from the frame that turns with them: density times speed squared
+/// times the current distance from the axis. [1 / time]
+struct CentrifugalOptions : LoadOptions {
+  Located<std::string> body;        ///< empty: every body with a density
+  ScalarFunction speed;             ///< of t, in radians
+  std::vector<double> point, axis;  ///< a point of the axis, empty: the origin; its direction, in 3D alone
+  void describe(Parameters& parameters) override;
+  std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
+};
+
+/// All kinds by name: "nodal force", "surface force", "moment", "dead traction", "follower pressure", "gravity", "centrifugal".
 const Registry<LoadOptions>& load_registry();
 
 }  // namespace mortise

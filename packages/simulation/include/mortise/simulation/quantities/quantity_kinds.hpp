@@ -55,6 +55,9 @@ enum class PointField {
   stress_yz,
   stress_xz,
   von_mises,
+  largest_principal_stress,
+  middle_principal_stress,
+  smallest_principal_stress,
   equivalent_plastic_strain,
   contact_pressure,
   gap

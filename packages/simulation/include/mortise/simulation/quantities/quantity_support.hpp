@@ -37,6 +37,9 @@ void require_temperature(const QuantityContext& context);
 /// a . b over the nodes of a body, or of all. Collective.
 double sum_over_body(const QuantityContext& context, const std::optional<LocalOrdinal>& body, const Vector& a, const Vector& b);
 
+/// Values that differ by less, over their size, are taken for equal where one of them is chosen: round-off does not decide.
+inline constexpr double same_but_for_round_off = 1e-9;
+
 double sum_over_ranks(const Mesh& mesh, double mine);
 double largest_over_ranks(const Mesh& mesh, double mine);
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "quantities/fields/principal_stress.hpp"
 #include "surfaces/surface_projection.hpp"
 
 namespace mortise {
@@ -86,6 +87,28 @@ Values von_mises(const FieldState& state) {
     double shears = 0.0;
     for (std::size_t c = 0; c < components - 3; ++c) shears += shear[c] * shear[c];
     values[e] = std::sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) + 3.0 * shears);
+  }
+  return values;
+}
+
+/// A principal stress of each element's mean stress.
+Values principal_values(const FieldState& state, std::size_t which) {
+  const Values s = stresses(state);
+  const int components = state.bodies.stress_components();
+  Values values;
+  for (std::size_t first = 0; first < s.size(); first += static_cast<std::size_t>(components))
+    values.push_back(principal_stresses(tensor_of(&s[first], components))[which].value);
+  return values;
+}
+
+/// The same along its direction, of which models in 2D have the part in their plane.
+Values principal_vectors(const FieldState& state, std::size_t which) {
+  const Values s = stresses(state);
+  const int components = state.bodies.stress_components();
+  Values values;
+  for (std::size_t first = 0; first < s.size(); first += static_cast<std::size_t>(components)) {
+    const PrincipalStress principal = principal_stresses(tensor_of(&s[first], components))[which];
+    for (int i = 0; i < state.bodies.dimension(); ++i) values.push_back(principal.value * principal.direction[static_cast<std::size_t>(i)]);
   }
   return values;
 }
@@ -208,6 +231,14 @@ const std::vector<Kind>& kinds() {
        }},
       {"cauchy_stress", "volume mean of the Cauchy stress of each element", Center::cell, FieldKind::symmetric_tensor, 4, 6, stresses},
       {"von_mises", "von Mises stress of each element's mean Cauchy stress", Center::cell, FieldKind::scalar, 1, 1, von_mises},
+      {"largest_principal_stress", "largest principal stress of each element's mean Cauchy stress", Center::cell, FieldKind::scalar, 1, 1,
+       [](const FieldState& state) { return principal_values(state, 0); }},
+      {"smallest_principal_stress", "smallest principal stress of each element's mean Cauchy stress", Center::cell, FieldKind::scalar, 1, 1,
+       [](const FieldState& state) { return principal_values(state, 2); }},
+      {"largest_principal_vector", "largest principal stress along its direction; in 2D the part in the plane", Center::cell, FieldKind::vector, 2, 3,
+       [](const FieldState& state) { return principal_vectors(state, 0); }},
+      {"smallest_principal_vector", "smallest principal stress along its direction; in 2D the part in the plane", Center::cell, FieldKind::vector, 2,
+       3, [](const FieldState& state) { return principal_vectors(state, 2); }},
       {"equivalent_plastic_strain", "volume mean of the accumulated plastic strain of each element; 0 in elastic bodies", Center::cell,
        FieldKind::scalar, 1, 1, plastic_strains},
       {"logarithmic_strain", "volume mean of the logarithmic strain of each element, 1/2 ln(F F^T); laws of small strain: symmetric part of F - 1",

@@ -9,6 +9,7 @@
 
 #include "mortise/mesh/sets.hpp"
 #include "mortise/simulation/quantities/quantity_support.hpp"
+#include "quantities/fields/principal_stress.hpp"
 
 namespace mortise {
 namespace {
@@ -43,6 +44,12 @@ double value_at(PointField field, const MaterialPoint& point) {
       return stress(1, 2);
     case PointField::stress_xz:
       return stress(0, 2);
+    case PointField::largest_principal_stress:
+      return principal_stresses(stress)[0].value;
+    case PointField::middle_principal_stress:
+      return principal_stresses(stress)[1].value;
+    case PointField::smallest_principal_stress:
+      return principal_stresses(stress)[2].value;
     default:
       return equivalent_stress(stress);
   }
@@ -127,6 +134,9 @@ void FieldQuantity::describe(Parameters& parameters) {
        {"stress yz", PointField::stress_yz},
        {"stress xz", PointField::stress_xz},
        {"von mises", PointField::von_mises},
+       {"largest principal stress", PointField::largest_principal_stress},
+       {"middle principal stress", PointField::middle_principal_stress},
+       {"smallest principal stress", PointField::smallest_principal_stress},
        {"equivalent plastic strain", PointField::equivalent_plastic_strain},
        {"contact pressure", PointField::contact_pressure},
        {"gap", PointField::gap}},
@@ -155,17 +165,20 @@ std::unique_ptr<QuantityEvaluator> Extremum::make_evaluator(const QuantityContex
     const double sign = which == Which::minimum ? -1.0 : 1.0;
     const auto size = [&](double value) { return which == Which::maximum_absolute ? std::abs(value) : sign * value; };
     double mine = -std::numeric_limits<double>::infinity();
-    std::array<double, 3> place{};
-    points.visit(at, [&](double value, double, const std::array<double, 3>& position) {
-      if (size(value) < mine || (size(value) == mine && !(position < place))) return;
-      mine = size(value);
-      place = position;
-    });
+    points.visit(at, [&](double value, double, const auto&) { mine = std::max(mine, size(value)); });
     const double largest = largest_over_ranks(at.mesh(), mine);
     if (gives == Gives::value) return sign * largest;
+    // Of a symmetric state several places have it but for round-off.
+    const double least = largest - same_but_for_round_off * std::abs(largest);
+    std::array<double, 3> place{};
+    bool has_it = false;
+    points.visit(at, [&](double value, double, const std::array<double, 3>& position) {
+      if (!(size(value) >= least) || (has_it && !(position < place))) return;
+      has_it = true;
+      place = position;
+    });
     // Of the ranks that have it the one with the smallest coordinates.
     constexpr double none = std::numeric_limits<double>::infinity();
-    bool has_it = mine == largest;
     double coordinate = none;
     for (std::size_t i = 0; i < place.size(); ++i) {
       coordinate = -largest_over_ranks(at.mesh(), has_it ? -place[i] : -none);
