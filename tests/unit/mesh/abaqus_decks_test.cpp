@@ -64,6 +64,13 @@ TEST(AbaqusDecks, SurfacesNameTheFacesOfShells) {
     EXPECT_EQ(set.members.at(0).side, set.name == "P" || set.name == "S2" ? the_cell_itself : the_other_face) << set.name;
 }
 
+// Abaqus has the normal of a line from node 1 to node 2 on its left, the program on its right.
+TEST(AbaqusDecks, SurfacesNameTheSidesOfLines) {
+  const MeshFile file = read_deck(cube_nodes + "*ELEMENT, TYPE=RAX2, ELSET=E\n1, 1,2\n*SURFACE, NAME=left\nE, SPOS\n*SURFACE, NAME=right\nE, SNEG\n");
+  EXPECT_EQ(set_named(file.side_sets, "left").members.at(0).side, the_other_face);
+  EXPECT_EQ(set_named(file.side_sets, "right").members.at(0).side, the_cell_itself);
+}
+
 TEST(AbaqusDecks, SetsOfNodesAreThoseOfElements) {
   const MeshFile file = read_deck(cube_nodes + "9, 2, 0, 0\n10, 2, 1, 0\n*ELEMENT, TYPE=S4\n2, 2,9,10,3\n" + cube_element +
                                   "*ELSET, ELSET=SHELL\n2\n*NSET, NSET=N, ELSET=SHELL\n");
@@ -146,6 +153,7 @@ TEST(AbaqusDecks, OfOtherKindsSayWhatTheyAre) {
   EXPECT_THAT(refused_as("a.inp", std::string("\xFF\xFE*\0N\0", 6)), HasSubstr("by its content it is text in UTF-16; please save it in UTF-8"));
   EXPECT_THAT(refused_as("a.mesh", "$MeshFormat\n4.1 0 8\n"), HasSubstr("By its content it is a mesh of Gmsh. Rename the file"));
   EXPECT_THAT(refused_as("a.inp", "ISO-10303-21;\n"), HasSubstr("a drawing in STEP"));
+  EXPECT_THAT(refused_as("a.msh", "\x1F\x8B\x08"), HasSubstr("packed by gzip"));
 }
 
 }  // namespace

@@ -167,5 +167,30 @@ TEST(Gmsh, TellsTheByteOfWhatIsWrong) {
   EXPECT_THAT(refused("$MeshFormat\n4.1 1 8\nabcd\n$EndMeshFormat\n"), StartsWith("a.msh:2: error: expected the number 1 in 4 bytes"));
 }
 
+const std::string one_triangle =
+    "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n";
+
+// Gmsh writes elements as its geometry has them, and turns those of groups with a sign when it reads them. Version 2.2 has them turned.
+TEST(Gmsh, TurnsElementsOfGroupsWithASign) {
+  const auto nodes_of = [&](const std::string& groups) {
+    const std::string entities = "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 " + groups + " 0\n$EndEntities\n";
+    return read_mesh_text("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + entities + one_triangle).cells.at(0).nodes;
+  };
+  EXPECT_THAT(nodes_of("1 5"), ::testing::ElementsAre(0, 1, 2));
+  EXPECT_THAT(nodes_of("1 -5"), ::testing::ElementsAre(0, 2, 1));
+  EXPECT_THAT(nodes_of("2 -5 -6"), ::testing::ElementsAre(0, 2, 1));
+  EXPECT_THAT(nodes_of("2 -5 6"), ::testing::ElementsAre(0, 1, 2));
+}
+
+TEST(Gmsh, RefusesOneFileOfAMeshThatWasCut) {
+  const auto of_partitions = [&](int partitions) {
+    const std::string entities =
+        "$PartitionedEntities\n" + std::to_string(partitions) + "\n0\n0 0 1 0\n1 2 9 1 1 0 0 0 1 1 0 0 0\n$EndPartitionedEntities\n";
+    return refusal_of("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + entities + one_triangle);
+  };
+  EXPECT_EQ(of_partitions(1), "no error");
+  EXPECT_THAT(of_partitions(3), ::testing::HasSubstr("the mesh was cut into 3 partitions, and the file has elements of 1 of them"));
+}
+
 }  // namespace
 }  // namespace mortise

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "mortise/core/names.hpp"
+#include "readers/file_cells.hpp"
 
 namespace mortise {
 namespace {
@@ -100,19 +101,6 @@ double plane_area(const MeshFile& file, const std::int32_t* nodes, int corners) 
   return 0.5 * twice;
 }
 
-/// Corner 0 of a plane cell stays the first. Mid-side node corners + k lies between corners k and k + 1.
-std::vector<std::int32_t> reversed(const std::int32_t* nodes, const CellTopology& cell) {
-  std::vector<std::int32_t> result;
-  if (cell.dimension == 1) {
-    result.assign(nodes, nodes + cell.nodes);
-    std::swap(result[0], result[1]);
-    return result;
-  }
-  for (int a = 0; a < cell.corners; ++a) result.push_back(nodes[(cell.corners - a) % cell.corners]);
-  for (int k = 0; k < cell.mid_side_nodes(); ++k) result.push_back(nodes[cell.corners + cell.corners - 1 - k]);
-  return result;
-}
-
 }  // namespace
 
 namespace {
@@ -137,7 +125,7 @@ ChosenCells make_elements(const MeshFile& file, const FileBodyRequest& request, 
         const std::int32_t* nodes = cells.nodes.data() + static_cast<std::size_t>(cell.nodes) * c;
         std::vector<std::int32_t> in_order(nodes, nodes + cell.nodes);
         if (mends && plane_area(file, nodes, cell.corners) < 0.0) {
-          in_order = reversed(nodes, cell);
+          in_order = turned_round(nodes, cell);
           chosen.turned[group].resize(part[group].size(), 0);
           chosen.turned[group][c] = 1;
           ++chosen.turned_count;
@@ -197,7 +185,7 @@ void turn_facets(const MeshFile& file, const FileBodyRequest& request, ChosenCel
   for (std::int32_t e = 0; e < elements.size(); ++e) {
     const auto found = pieces.find(piece_of(e));
     if (found == pieces.end() || found->second.against.empty() || !found->second.along.empty()) continue;
-    const auto nodes = reversed(elements.nodes_of(e), elements.cell(e));
+    const auto nodes = turned_round(elements.nodes_of(e), elements.cell(e));
     std::copy(nodes.begin(), nodes.end(), elements.nodes.begin() + elements.offsets[static_cast<std::size_t>(e)]);
     ++turned;
   }

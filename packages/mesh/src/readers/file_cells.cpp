@@ -36,6 +36,25 @@ void add_cells(std::vector<FileCellRange>& ranges, FileCellRange added) {
     ranges.push_back(added);
 }
 
+std::vector<std::int32_t> turned_round(const std::int32_t* nodes, const CellTopology& cell) {
+  std::vector<std::int32_t> result;
+  if (cell.dimension == 1) {
+    result.assign(nodes, nodes + cell.nodes);
+    std::swap(result[0], result[1]);
+    return result;
+  }
+  for (int a = 0; a < cell.corners; ++a) result.push_back(nodes[(cell.corners - a) % cell.corners]);
+  for (int k = 0; k < cell.mid_side_nodes(); ++k) result.push_back(nodes[cell.corners + cell.corners - 1 - k]);
+  return result;
+}
+
+void turn_round(FileCells& cells, std::size_t cell) {
+  const CellTopology& shape = topology(cells.shape);
+  const auto begin = cells.nodes.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(shape.nodes) * cell);
+  const std::vector<std::int32_t> turned = turned_round(&*begin, shape);
+  std::copy(turned.begin(), turned.end(), begin);
+}
+
 void join_ranges(std::vector<FileCellRange>& ranges) {
   std::sort(ranges.begin(), ranges.end(),
             [](const FileCellRange& a, const FileCellRange& b) { return a.group != b.group ? a.group < b.group : a.first < b.first; });

@@ -21,6 +21,11 @@ std::int32_t group_of(std::vector<FileCells>& cells, CellShape shape);
 /// Adds the cells to ranges; those that go on where the last range ends make it longer.
 void add_cells(std::vector<FileCellRange>& ranges, FileCellRange added);
 
+/// Turns a line or a plane cell round. Corner 0 of a plane cell stays the first. Mid-side node corners + k lies between corners k and k + 1.
+void turn_round(FileCells& cells, std::size_t cell);
+/// Its nodes in this order.
+std::vector<std::int32_t> turned_round(const std::int32_t* nodes, const CellTopology& cell);
+
 /// Sorts ranges and joins those that overlap or touch.
 void join_ranges(std::vector<FileCellRange>& ranges);
 

@@ -50,9 +50,11 @@ std::optional<Content> content_of(const std::string& path) {
   const auto text_begins = [&](std::string_view with) { return text.substr(0, with.size()) == with; };
   if (begins("CDF") || begins("\x89HDF")) return Content{MeshFormat::exodus, "netCDF or HDF5, as Exodus II is"};
   if (text_begins("$MeshFormat") || text_begins("$NOD")) return Content{MeshFormat::gmsh, "a mesh of Gmsh"};
+  if (begins("\x1F\x8B")) return Content{std::nullopt, "packed by gzip; please unpack it"};
   if (begins("\xFF\xFE") || begins("\xFE\xFF")) return Content{std::nullopt, "text in UTF-16; please save it in UTF-8"};
   if (text_begins("ISO-10303-21")) return Content{std::nullopt, "a drawing in STEP, which a mesh generator as Gmsh has to mesh"};
-  if (text_begins("# vtk DataFile") || text.find("<VTKFile") != std::string_view::npos) return Content{std::nullopt, "a mesh in VTK's format; meshio converts it"};
+  if (text_begins("# vtk DataFile") || text.find("<VTKFile") != std::string_view::npos)
+    return Content{std::nullopt, "a mesh in VTK's format; meshio converts it"};
   if (text_begins("solid ")) return Content{std::nullopt, "a surface in STL, which a mesh generator as Gmsh has to fill"};
   if (text_begins("MeshVersionFormatted")) return Content{std::nullopt, "a mesh in Medit's format; Gmsh or meshio converts it"};
   if (text.size() > 1 && text[0] == '*' && (text[1] == '*' || std::isalpha(static_cast<unsigned char>(text[1])))) {

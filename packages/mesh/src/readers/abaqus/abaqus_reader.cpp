@@ -313,8 +313,10 @@ class AbaqusReader {
     // CalculiX calls the faces of a shell S1 and S2, too: against its normal, and along it.
     const bool is_negative = item.face == AbaqusSurfaceItem::Face::negative || (is_surface && item.number == 1);
     const bool wants_itself = is_negative || item.face == AbaqusSurfaceItem::Face::positive || (is_surface && item.number == 2);
-    FileSide side = side_of(of, is_negative ? the_other_face : the_cell_itself);
+    FileSide side = side_of(of, the_cell_itself);
     const FileCells& cells = file_.cells[static_cast<std::size_t>(side.group)];
+    // The normal of a line stands to the left of it in Abaqus, to the right here.
+    if (is_negative != (topology(cells.shape).dimension == 1)) side.side = the_other_face;
     if (!wants_itself && !is_surface) side.side = abaqus_side(cells.shape, item.number);
     if (wants_itself != is_surface || (!is_surface && side.side < 0))
       return errors_.add(lines_.place(item.of.spot),

@@ -19,12 +19,20 @@ void read_gmsh_entity(GmshNumbers& numbers, GmshMesh& mesh, int dimension, bool 
     const std::int64_t of_dimension = numbers.whole("the dimension of a parent"), of_tag = numbers.whole("the tag of a parent");
     entity.parent = {static_cast<int>(of_dimension), of_tag};
     const std::int64_t partitions = numbers.count("the number of partitions", 2, 4);
-    for (std::int64_t p = 0; p < partitions; ++p) numbers.whole("a partition");
+    for (std::int64_t p = 0; p < partitions; ++p) {
+      const std::int64_t partition = numbers.whole("a partition");
+      if (partitions == 1) entity.partition = partition;
+    }
   }
   for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) numbers.real("a coordinate");
   const std::int64_t groups = numbers.count("the number of physical groups", 2, 4);
-  // The sign of a group says that its elements were turned round.
-  for (std::int64_t g = 0; g < groups; ++g) entity.physical.push_back(std::abs(numbers.whole("the tag of a physical group")));
+  // The sign of a group says that its elements are to be turned round. Of several groups with other signs none is.
+  entity.is_turned = groups > 0 && (dimension == 1 || dimension == 2);
+  for (std::int64_t g = 0; g < groups; ++g) {
+    const std::int64_t group = numbers.whole("the tag of a physical group");
+    entity.is_turned = entity.is_turned && group < 0;
+    entity.physical.push_back(std::abs(group));
+  }
   if (dimension > 0) {
     const std::int64_t bounds = numbers.count("the number of bounding entities", 2, 4);
     for (std::int64_t b = 0; b < bounds; ++b) numbers.whole("the tag of a bounding entity");
@@ -62,7 +70,7 @@ int read_gmsh_dimension(GmshNumbers& numbers) {
 
 void read_gmsh_4_entities(GmshNumbers& numbers, GmshMesh& mesh, bool partitioned) {
   if (partitioned) {
-    numbers.size("the number of partitions");
+    mesh.partitions = numbers.size("the number of partitions");
     const std::int64_t ghosts = numbers.count("the number of ghost entities", 4, 8);
     for (std::int64_t g = 0; g < ghosts; ++g) {
       numbers.whole("the tag of a ghost entity");
@@ -127,6 +135,8 @@ void read_gmsh_4_elements(GmshNumbers& numbers, GmshMesh& mesh) {
       numbers.about("element", label);
       const FileCellRange cell = read_gmsh_nodes_of(numbers, mesh, type, label, spot);
       if (cell.group >= 0) {
+        if (entity.is_turned) turn_round(mesh.file.cells[static_cast<std::size_t>(cell.group)], static_cast<std::size_t>(cell.first));
+        if (entity.partition > 0) mesh.partitions_here.insert(entity.partition);
         for (const std::int64_t group : entity.physical) add_cells(mesh.physical_cells[{dimension, group}], cell);
         // Boundaries of partitions are no entities of the geometry.
         if (entity.parent.first == dimension) add_cells(mesh.entity_cells[entity.parent], cell);
@@ -137,6 +147,12 @@ void read_gmsh_4_elements(GmshNumbers& numbers, GmshMesh& mesh) {
     }
   }
   require_all(numbers, head, read, "elements");
+  const auto here = static_cast<std::int64_t>(mesh.partitions_here.size());
+  if (here > 0 && here < mesh.partitions)
+    numbers.stop_at(numbers.spot(),
+                    fmt::format("the mesh was cut into {} partitions, and the file has elements of {} of them; please write all into one "
+                                "file (Mesh.PartitionSplitMeshFiles=0), or save the mesh before it is cut",
+                                mesh.partitions, here));
 }
 
 }  // namespace mortise

@@ -20,6 +20,8 @@ using GmshTag = std::pair<int, std::int64_t>;
 struct GmshEntity {
   std::vector<std::int64_t> physical;  ///< tags of its groups, all of its dimension
   GmshTag parent;                      ///< in a file that is cut into partitions, the entity that this one is a part of
+  bool is_turned = false;              ///< the sign of its groups says that its elements are to be turned round
+  std::int64_t partition = 0;          ///< the only one that it belongs to; 0: none, or several
 };
 
 /// Data that the sections of a file fill.
@@ -29,6 +31,8 @@ struct GmshMesh {
   std::vector<std::vector<std::int64_t>> spots;       ///< [groups of cells][cells] where they stand
   std::map<GmshTag, std::vector<std::string>> names;  ///< of physical groups
   std::map<GmshTag, GmshEntity> entities;             ///< those of $Entities
+  std::int64_t partitions = 0;                        ///< that the whole mesh was cut into
+  std::set<std::int64_t> partitions_here;             ///< that have elements in the file
   std::map<GmshTag, std::vector<FileCellRange>> physical_cells, entity_cells;
   std::map<GmshTag, std::vector<std::int32_t>> physical_points, entity_points;  ///< nodes
   std::map<GmshTag, std::set<std::int64_t>> physical_of_entity;                 ///< version 2.2: those of the elements of each

@@ -104,7 +104,7 @@ class GmshReader {
       if (has_elements_) numbers_.stop_at(begin_, fmt::format("{} stands behind $Elements", section_));
       read_gmsh_4_entities(numbers_, mesh_, section_ == "$PartitionedEntities");
     } else if (section_ == "$ParametricNodes") {
-      numbers_.stop_at(begin_, fmt::format("$ParametricNodes is not read; {}", how_to_write));
+      numbers_.stop_at(begin_, "$ParametricNodes is not read; please save the mesh with Mesh.SaveParametric=0");
     } else {
       skip_section();
       return;
