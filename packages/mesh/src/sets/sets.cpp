@@ -17,14 +17,11 @@ const typename Sets::mapped_type& require(const Mesh& mesh, const Sets& sets, co
   if (found != sets.end()) return found->second;
   if (const auto left_out = mesh.left_out_sets.find(name.value); left_out != mesh.left_out_sets.end())
     throw InputError(name.place, fmt::format("set \"{}\" of the mesh file is left out: {}", name.value, left_out->second));
-  if (kind == "side" && mesh.node_sets.count(name.value) > 0)
-    throw InputError(name.place,
-                     fmt::format("\"{}\" is a set of nodes, and a set of sides is needed. A surface given by nodes, or one with sides between "
-                                 "two elements, is no set of sides",
-                                 name.value));
   std::vector<std::string> names;
   for (const auto& entry : sets) names.push_back(entry.first);
-  const std::string hint = did_you_mean(name.value, names);
+  std::string hint = did_you_mean(name.value, names);
+  if (kind == "side" && mesh.node_sets.count(name.value) > 0)
+    hint = ", only a set of nodes of this name: a surface given by nodes, or one with sides between two elements, is none of sides.";
   throw InputError(name.place, fmt::format("there is no {0} set \"{1}\"{2} {3} {0} sets are: {4}", kind, name.value, hint.empty() ? ";" : hint,
                                            hint.empty() ? "the" : "The", fmt::join(names, ", ")));
 }
