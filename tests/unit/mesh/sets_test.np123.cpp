@@ -104,7 +104,8 @@ TEST(Sets, ErrorsAreTheSameOnEveryRank) {
   EXPECT_THAT(input_error_of([&] { add_set(*mesh, set_of("none", "block", "-1", SetKind::nodes)); }),
               ::testing::AllOf(HasSubstr("scene.xml:12: error: sets/none"), HasSubstr("is empty")));
   EXPECT_THAT(input_error_of([&] { add_set(*mesh, set_of("none", "block/top", "x - 100", SetKind::sides)); }), HasSubstr("no side of \"block/top\""));
-  EXPECT_THAT(input_error_of([&] { add_set(*mesh, set_of("sides", "block", "1", SetKind::sides)); }), HasSubstr("no side set \"block\""));
+  EXPECT_THAT(input_error_of([&] { add_set(*mesh, set_of("sides", "block", "1", SetKind::sides)); }),
+              ::testing::AllOf(HasSubstr("no side set \"block\", only a set of nodes of this name"), HasSubstr("The side sets are: block/")));
   // Not finite at one node, so on some ranks only.
   EXPECT_THAT(input_error_of([&] { add_set(*mesh, set_of("bad", "block", "1/(x^2 + y^2)", SetKind::nodes)); }), HasSubstr("scene.xml:12: error"));
   EXPECT_THAT(input_error_of([&] {
