@@ -130,4 +130,13 @@ class TwoBlocks {
   double force_round_off = 0.0;
 };
 
+/// A quantity of a field, on a set, a body or a pair.
+template <class Kind>
+Kind field(PointField field, const std::string& on) {
+  Kind quantity;
+  quantity.field = field;
+  quantity.on = {on, {}};
+  return quantity;
+}
+
 }  // namespace mortise::test

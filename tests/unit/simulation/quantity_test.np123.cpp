@@ -15,14 +15,6 @@ namespace {
 using namespace test;
 using ::testing::HasSubstr;
 
-template <class Kind>
-Kind field(PointField field, const std::string& on) {
-  Kind quantity;
-  quantity.field = field;
-  quantity.on = {on, {}};
-  return quantity;
-}
-
 template <class Action>
 std::string input_error(const Action& action) {
   try {
@@ -53,23 +45,6 @@ TEST(Quantity, StressOfUniformStrain) {
   EXPECT_NEAR(blocks.value(field<Mean>(PointField::middle_principal_stress, "upper")), principal[1], 1e-13);
   EXPECT_NEAR(blocks.value(field<Extremum>(PointField::smallest_principal_stress, "lower")), principal[0], 1e-13);
   EXPECT_LT(blocks.value(*quantity("spread")), 1e-12);
-}
-
-// Two corners are moved alike but for round-off: the place is that of the smaller coordinates, whichever has more.
-TEST(Quantity, PlaceOfAnExtremumDoesNotDependOnRoundOff) {
-  for (const double more : {1e-12, -1e-12}) {
-    TwoBlocks blocks;
-    blocks.move([&](int body, const Point& X) {
-      if (body == 0 || X[1] < 2.0) return Point{0.0, 0.0};
-      return Point{0.0, X[0] == 0.0 ? 1.0 : X[0] == width ? 1.0 + more : 0.5};
-    });
-    Extremum extremum = field<Extremum>(PointField::displacement_y, "");
-    EXPECT_NEAR(blocks.value(extremum), 1.0, 1e-11);
-    extremum.gives = Extremum::Gives::x;
-    EXPECT_EQ(blocks.value(extremum), 0.0);
-    extremum.gives = Extremum::Gives::y;
-    EXPECT_EQ(blocks.value(extremum), 2.0);
-  }
 }
 
 // Strain e below and 2 e above, equal volumes: the mean is 1.5 sigma(e), every deviation 0.5 sigma(e).

@@ -2,6 +2,7 @@
 
 usage: compare_test.py MPIRUN MORTISE DIRECTORY
 """
+import csv
 import json
 import os
 import re
@@ -126,6 +127,15 @@ def main():
         file.truncate(os.path.getsize(file.name) - 30)
     code, text = runs.compare("one", "cut")
     require(code == 5 and "history.csv: line 5 has" in text, f"a history that is cut: {code}\n{text}")
+    # A value that one run alone has, in the middle of its history.
+    shutil.copytree(runs.path("one"), runs.path("hole"))
+    with open(os.path.join(runs.path("hole"), "history.csv"), newline="") as file:
+        rows = list(csv.reader(file))
+    rows[2][rows[0].index("force")] = ""
+    with open(os.path.join(runs.path("hole"), "history.csv"), "w", newline="") as file:
+        csv.writer(file).writerows(rows)
+    code, text = runs.compare("one", "hole", "--tolerance", "1")
+    require(code == 4 and row_of(text, "force")[5] == "inf", f"a value of one run alone: {code}\n{text}")
     print("compare: all as expected")
 
 

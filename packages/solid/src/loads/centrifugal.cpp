@@ -13,8 +13,8 @@
 namespace mortise {
 namespace {
 
-/// f_a = omega^2 sum_b M_ab P (x_b - c) with the consistent mass M, a point c of the axis and P = 1 - e e^T of its direction e; in 2D e is across the
-/// plane, axisymmetric P leaves the radius alone. The force stands on current positions: d f_a / d x_b = omega^2 M_ab P.
+/// f_a = omega^2 sum_b M_ab P (x_b - c) with the consistent mass M and a point c of the axis. P = 1 - e e^T for an axis along e. In 2D e is across
+/// the plane; axisymmetric P leaves the radius alone. The force stands on current positions: d f_a / d x_b = omega^2 M_ab P.
 class Centrifugal final : public Load {
  public:
   Centrifugal(std::shared_ptr<const Bodies> bodies, const CentrifugalOptions& options)

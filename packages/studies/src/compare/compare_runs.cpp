@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "mortise/core/error.hpp"
@@ -81,16 +82,17 @@ ComparedRun read_run(const Communicator& comm, const std::string& directory) {
   return run;
 }
 
-/// The value at a time on straight lines between the times of a history; not a number beyond them.
-double value_at_time(const std::vector<double>& times, const std::vector<double>& values, double time) {
+/// The value at a time on straight lines between the times of a history. Nothing beyond them, and between two times of which one has no value.
+std::optional<double> value_at_time(const std::vector<double>& times, const std::vector<double>& values, double time) {
   const double slack = 1e-9 * std::abs(time);
   const auto after = std::lower_bound(times.begin(), times.end(), time - slack);
-  if (after == times.end()) return std::numeric_limits<double>::quiet_NaN();
+  if (after == times.end()) return std::nullopt;
   const auto n = static_cast<std::size_t>(after - times.begin());
   if (std::abs(times[n] - time) <= slack) return values[n];
-  if (n == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (n == 0) return std::nullopt;
   const double share = (time - times[n - 1]) / (times[n] - times[n - 1]);
-  return (1.0 - share) * values[n - 1] + share * values[n];
+  const double value = (1.0 - share) * values[n - 1] + share * values[n];
+  return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
 void compare_histories(const ComparedHistory& a, const ComparedHistory& b, QuantityDifference& quantity) {
@@ -105,8 +107,12 @@ void compare_histories(const ComparedHistory& a, const ComparedHistory& b, Quant
   const auto &short_times = (a_is_shorter ? times_of_a : times_of_b)->second, &short_values = (a_is_shorter ? of_a : of_b)->second;
   const auto &long_times = (a_is_shorter ? times_of_b : times_of_a)->second, &long_values = (a_is_shorter ? of_b : of_a)->second;
   for (std::size_t n = 0; n < short_times.size(); ++n) {
-    const double difference = std::abs(short_values[n] - value_at_time(long_times, long_values, short_times[n]));
-    if (!(difference > quantity.largest_difference)) continue;
+    const std::optional<double> other = value_at_time(long_times, long_values, short_times[n]);
+    if (!other || (std::isnan(*other) && std::isnan(short_values[n]))) continue;
+    // One run has a value where the other has none.
+    const bool has_both = !std::isnan(*other) && !std::isnan(short_values[n]);
+    const double difference = has_both ? std::abs(short_values[n] - *other) : std::numeric_limits<double>::infinity();
+    if (difference <= quantity.largest_difference) continue;
     quantity.largest_difference = difference;
     quantity.time = short_times[n];
   }
